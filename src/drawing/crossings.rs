@@ -49,22 +49,25 @@ struct CommonSide {
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
-    /// Returns the lines in which polygons intersect, as runs of [`EdgeKind::Crossing`]. Each run is returned
-    /// once: [`EdgeRun::polygon`] is the lower of the two numbers. [`edges`](Self::edges) returns edges that
-    /// only touch another polygon.
+    /// Returns the lines in which polygons intersect, as [runs](EdgeRun) of the kind [`EdgeKind::Crossing`].
+    /// Each run is returned once: [`EdgeRun::polygon`] is the lower number of the two polygons, and the kind
+    /// contains the higher number. An edge that only touches another polygon is not a crossing;
+    /// [`edges`](Self::edges) returns it.
     ///
-    /// A point is on a visible crossing if both polygons are visible at the point, one on each side.
-    /// Crossings are as exact as the map: only the ends of runs are rounded. At an edge that triangulation
-    /// made, another polygon counts as crossing if that polygon lies between the edge's two triangles. A
-    /// corner no further from a plane than the tolerance is treated as on the plane.
+    /// A point of a crossing is visible if one polygon is visible on one side of the line at the point, and
+    /// the other polygon is visible on the other side. Crossings are as exact as the map: only the ends of
+    /// runs are rounded. At the common edge of two triangles of a triangulated polygon, another polygon
+    /// crosses the triangulated polygon if the other polygon lies between the two triangles. A corner no
+    /// further from a polygon's plane than the tolerance is treated as on the plane.
     ///
-    /// Except with [`Hidden::Skip`], hidden runs are returned too, if each of two polygons has corners on
-    /// both sides of the other polygon's plane, further from that plane than the tolerance. If a polygon has
-    /// several faces, each pair of faces then has separate runs.
+    /// With [`Hidden::Keep`] and [`Hidden::Count`], hidden runs are returned too, but only for some pairs of
+    /// polygons. Each polygon of such a pair has corners on both sides of the other polygon's plane, further
+    /// from that plane than the tolerance. If a polygon is triangulated, each of its triangles has separate
+    /// runs.
     ///
-    /// O(n log n) for n cells of opaque polygons; with opacities, n includes the parts in which
-    /// [`regions`](Self::regions) are found. With hidden runs, n includes the faces; if the bounding boxes of
-    /// many faces overlap, as at the tip of a cone, the operation takes more time.
+    /// Takes O(n log n) for n cells of opaque polygons. With translucent polygons, n also includes the parts
+    /// of the picture that [`regions`](Self::regions) are made of. With hidden runs, n also includes all
+    /// polygons, and the time is longer if many of their bounding boxes overlap, as at the tip of a cone.
     ///
     /// # Errors
     ///

@@ -15,19 +15,25 @@ use crate::exact::{Faces, PlaneId};
 use crate::progress::Watch;
 
 impl VisibilityMap<'_> {
-    /// Returns the edges of polygons that show a side to the camera, clipped to the picture. Each edge is
-    /// divided into visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs are
-    /// sorted by polygon, then by edge, then from the start of the edge to its end.
+    /// Returns the edges of polygons, clipped to the picture. Each edge is divided into visible and hidden
+    /// [runs](EdgeRun). With [`Hidden::Skip`], only visible runs are returned. Runs are sorted by polygon,
+    /// then by edge, then from the start of the edge to its end.
     ///
-    /// Visibility is as exact as the map: only the ends of runs are rounded. The faces that have an edge do
-    /// not hide the edge. If their polygon is not planar, another part of the polygon may hide the edge.
-    /// Polygons share an edge if both corners of the edge are equal. Edges that triangulation made inside a
-    /// polygon are left out, except silhouettes. (A polygon that is not planar may be seen from its front on
-    /// one side of such an edge, and from behind on the other side.) Also left out are edges whose polygons
-    /// are all seen exactly edge-on, and edges along a border of the picture whose polygons are all outside
-    /// the picture. [`crossings`](Self::crossings) returns the lines in which polygons intersect.
+    /// Visibility is as exact as the map: only the ends of runs are rounded. The polygons that have an edge
+    /// do not hide the edge. Exception: if such a polygon is not planar, another part of the polygon may hide
+    /// the edge. Two polygons share an edge if the edge has the same two corners in both polygons. A shared
+    /// edge is returned once.
     ///
-    /// O(n log n) for n edges and cells, except with [`Hidden::Count`].
+    /// These edges are left out:
+    ///
+    /// - edges that triangulation made inside a polygon, except silhouettes. (A polygon that is not planar
+    ///   may be seen from its front on one side of such an edge, and from behind on the other side.)
+    /// - edges whose polygons are all seen exactly edge-on, or left out by the [options](super::ViewOptions);
+    /// - edges along a border of the picture whose polygons are all outside the picture.
+    ///
+    /// [`crossings`](Self::crossings) returns the lines in which polygons intersect.
+    ///
+    /// Takes O(n log n) for n edges and cells, and more time with [`Hidden::Count`].
     ///
     /// # Errors
     ///
@@ -283,10 +289,10 @@ impl SharedEdge {
 pub enum EdgeKind {
     /// The polygon shares this edge with no other polygon, or with several other polygons.
     Border,
-    /// One polygon at the edge is seen from its front and the other from behind, or one of the two is seen
-    /// edge-on. Two parts of one polygon that is not planar can also form a silhouette. Seen from the eye, a
-    /// body ends at a silhouette. (If the fronts of the two polygons are on different sides of the surface,
-    /// one polygon counts as reversed.)
+    /// One polygon at the edge is seen from its front and the other polygon from behind, or one of the two
+    /// polygons is seen edge-on. Seen from the eye, a body ends at a silhouette. Two parts of one polygon
+    /// that is not planar can also form a silhouette. (If the fronts of the two polygons are on different
+    /// sides of the surface, one polygon counts as reversed.)
     Silhouette,
     /// Two polygons meet at this angle, in radians: 0 if they lie in one plane, π if one polygon is folded
     /// back on the other.
@@ -299,7 +305,8 @@ pub enum EdgeKind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EdgeRun {
-    /// A polygon that has the edge, and shows a side to the camera.
+    /// The index of a polygon that has the edge and is not seen edge-on. At a crossing, the lower index of
+    /// the two polygons.
     pub polygon: usize,
     /// The number of the polygon's corner where the edge begins; `None` for a crossing, and for a silhouette
     /// inside a polygon that is not planar.
@@ -311,8 +318,8 @@ pub struct EdgeRun {
     pub ends: [[f64; 2]; 2],
     /// Whether the run is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of the run; `None` unless layers were [counted](Hidden::Count). The
-    /// number is 0 for a visible run: translucent polygons in front do not count.
+    /// The number of polygons in front of a hidden run, including translucent polygons; 0 for a visible run.
+    /// `None` unless the polygons were [counted](Hidden::Count).
     pub layers: Option<u32>,
 }
 

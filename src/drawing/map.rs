@@ -18,38 +18,48 @@ use crate::raster::Rays;
 use crate::tree::BspTree;
 use crate::view::Camera;
 
-/// The visible parts of polygons in one view: convex cells side by side, each a part of one polygon.
-/// [`BspTree::visibility`] computes a map.
+/// The visible parts of polygons in one view, divided into cells. A [cell](MapCell) is a convex part of the
+/// picture in which one polygon is visible. [`BspTree::visibility`] computes a map.
 ///
-/// The map is exact and adds no tolerance. Lines of the picture are planes through the eye in integers. A
-/// corner is the intersection of two lines, never a rounded point. A polygon is in the map if and only if a
-/// part of it is visible, however small. Where two polygons in one plane overlap, the map contains the
-/// polygon that the tree's order paints last.
+/// The map is exact and adds no tolerance. An edge of a cell is stored as a plane through the eye, with
+/// integer coefficients. A corner is stored as the intersection of two such planes, never as a rounded point.
+/// A polygon is in the map if and only if a part of it is visible, however small. Where two coplanar polygons
+/// overlap, the visible polygon is the one that the tree's back-to-front order paints last.
 ///
-/// If corners of a polygon were moved onto a common plane, that plane decides which polygon is in front. The
-/// edges still go through the given corners if no corner was moved by more than 2⁻³² of the extent. (The
-/// rounding of `f64` moves corners less.) So there is no crack between neighbours that share an edge. The
-/// edges go through the moved corners if a corner was moved further, if the given corners do not form a
-/// convex polygon in the picture, or if the polygon has more than eight corners.
+/// The tree's tolerance may move the corners of a polygon onto a plane: see
+/// [flattened](crate::Preparation::flattened) and [nearly coplanar](crate::Stats::nearly_coplanar) polygons.
+/// This plane decides which polygon is in front. In most cases, the polygon's edges in the picture still go
+/// through the given corners, so there is no crack between neighbours that share an edge. The edges go
+/// through the moved corners if
 ///
-/// Time is O(n log n) for n fragments in most scenes. The map also stores the lines of the edges of hidden
-/// polygons in the frustum. With the feature `parallel`, all threads share the tiles of the picture; the map
-/// is the same, bit for bit.
+/// - a corner was moved by more than 2⁻³² of the extent (the rounding of `f64` moves corners less);
+/// - the given corners do not form a convex polygon in the picture; or
+/// - the polygon has more than eight corners.
 ///
-/// Positions are in pixels, as for [`Camera::project`]: from (0, 0), the corner of the first pixel, x to the
-/// right, y down. The centre of the first pixel is at (½, ½).
+/// The time is O(n log n) for n fragments in most scenes. The map stores its cells, and the edges of all
+/// polygons in the frustum, including hidden polygons. With the feature `parallel`, all threads share the
+/// work; the map is the same, bit for bit.
+///
+/// Positions are in pixels, as for [`Camera::project`]: x points right, and y points down. The upper left
+/// corner of the first pixel is (0, 0), and its centre is (½, ½).
 ///
 /// # Progress
 ///
-/// A map keeps [the callback](ViewOptions::progress) that it is made with: each later operation that can fail
-/// reports to the same callback. Each operation, including the making of the map, counts separately. `total`
-/// is the number of the operation's parts, and does not change during the operation. `done` begins with 0,
-/// never decreases, and is `total` in the last call, when the result is ready. Parts do not take equally
-/// long. The callback is called about once per millisecond, by any thread, one call at a time. Only while a
-/// long list is sorted or read, a call may be late (by a tenth of a second for a million items). If the
-/// callback returns `Break`, the operation ends with an error whose [kind](Error::kind) is `Cancelled`. The
-/// map is not changed, and its next operation starts from the beginning. If several threads use one map at
-/// once, their operations take turns to call the callback, and the last call of an operation may be missing.
+/// A map keeps the callback [`ViewOptions::progress`]. The making of the map, and each later operation of the
+/// map that can fail, reports its [`Progress`] to this callback. Each operation counts separately:
+///
+/// - `total` is the number of the operation's parts, which do not take equally long. It does not change
+///   during the operation.
+/// - `done` begins with 0 and never decreases. In the last call, when the result is ready, it equals `total`.
+///
+/// The callback is called about once per millisecond, by any thread, one call at a time. While a long list is
+/// sorted or read, a call may be late, by a tenth of a second for a million items. If several threads use one
+/// map at once, their operations take turns to call the callback, and the last call of an operation may be
+/// missing.
+///
+/// If the callback returns `Break`, the operation ends with an error whose [kind](Error::kind) is
+/// `Cancelled`. The map is not changed and can still be used. A new call of the operation starts from the
+/// beginning.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
@@ -75,10 +85,11 @@ pub struct ViewOptions<'a> {
     /// the picture. Default: `false`.
     pub front_faces_only: bool,
     /// The opacity of each polygon, from 0 to 1, in input order. Polygons with an opacity of less than 1 hide
-    /// nothing, and polygons with opacity 0 are left out. Default: an empty list, all polygons are opaque.
+    /// nothing, and polygons with opacity 0 are left out. Default: an empty list, with which all polygons are
+    /// opaque.
     pub opacities: Vec<f64>,
-    /// The least visible area, in square pixels. Drawings leave out polygons, and lists of regions leave out
-    /// regions, with a smaller visible area. Default: 0, nothing is left out. NaN counts as 0.
+    /// The least visible area, in square pixels. Drawings leave out polygons whose visible area is smaller.
+    /// Lists of regions leave out smaller regions. Default: 0, which leaves out nothing. NaN counts as 0.
     pub least_area: f64,
     /// A callback that receives the progress and can cancel the work: see [Progress](VisibilityMap#progress).
     /// Default: `None`.
@@ -134,14 +145,17 @@ pub enum Hidden {
     Skip,
     /// Returns hidden parts as runs that are not visible.
     Keep,
-    /// Like `Keep`, but cuts hidden runs where the number of polygons in front changes. A run's `layers` is
-    /// the number of polygons in front.
+    /// Returns hidden parts as runs, like `Keep`, and counts the polygons in front of each run:
+    /// [`EdgeRun::layers`](super::EdgeRun::layers). Hidden runs are cut where this number changes.
     ///
-    /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
-    /// have the edge do not count. If their polygon is not planar, another face of the polygon may be in
-    /// front of the edge, and counts. `layers` is at least 1. Example: a shelf's edge touches the wall that
-    /// hides the edge. Time and memory are proportional to the number of polygons in front of hidden parts.
-    /// (A. Appel, "The notion of quantitative invisibility and the machine rendering of solids", 1967.)
+    /// A polygon counts once, even if it is hidden itself. Polygons that are seen edge-on do not count, and
+    /// polygons that have the edge do not count. Exception: if a polygon is not planar, another part of the
+    /// polygon may be in front of its own edge. Then the polygon counts.
+    ///
+    /// The number for a hidden run is at least 1, even if the run only touches the polygon that hides the
+    /// run. (Example: the edge of a shelf touches the wall that hides the edge.) Time and memory are
+    /// proportional to the number of polygons in front of hidden parts. (A. Appel, "The notion of
+    /// quantitative invisibility and the machine rendering of solids", 1967.)
     Count,
 }
 
@@ -167,16 +181,21 @@ pub struct MapCell<'m> {
 impl BspTree {
     /// Computes the visible parts of the tree's polygons for a camera.
     ///
-    /// With [opacities](ViewOptions::opacities) of less than 1, a polygon is visible where no opaque polygon
-    /// is in front of it. So cells of translucent polygons overlap the cells of other polygons. The number of
-    /// cells, and the time, grow with the number of translucent polygons that lie over one another.
+    /// A polygon is visible where no opaque polygon is in front of it. So the cells of translucent polygons,
+    /// whose [opacities](ViewOptions::opacities) are less than 1, overlap the cells of the polygons behind
+    /// them. The number of cells and the time grow with the number of translucent polygons that lie over one
+    /// another.
     ///
     /// # Errors
     ///
-    /// If the camera is too far from the scene or its view too narrow, as for [`Rays::new`]; if the tree is
-    /// the tree of one cell of a partition; if the number of opacities is not the number of polygons; if an
-    /// opacity is not a number from 0 to 1 ([`Error::polygon`] is the first such polygon); if memory runs
-    /// out; or if the callback cancels the work.
+    /// An error is returned if
+    ///
+    /// - the camera is too far from the scene or its view is too narrow, as for [`Rays::new`];
+    /// - the tree is the tree of one cell of a partition;
+    /// - the list of opacities is not empty, and its length is not the number of polygons;
+    /// - an opacity is not a number from 0 to 1 ([`Error::polygon`] is the first such polygon);
+    /// - memory runs out; or
+    /// - the callback cancels the work.
     pub fn visibility<'t>(
         &'t self,
         camera: &Camera,

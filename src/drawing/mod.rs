@@ -1,14 +1,14 @@
 //! One view as a vector picture.
 //!
-//! A tree cuts polygons for all viewpoints; one picture needs almost no cuts.
-//! [`BspTree::visibility`](crate::BspTree::visibility) computes a [`VisibilityMap`]: the exact visible part
-//! of each polygon. The map returns
+//! A tree cuts polygons so that they have an order from every viewpoint. A picture from one viewpoint needs
+//! almost no cuts. [`BspTree::visibility`](crate::BspTree::visibility) computes a [`VisibilityMap`]: the
+//! exact visible part of each polygon. The map returns
 //!
 //! | call | result |
 //! |---|---|
 //! | [`VisibilityMap::drawing`] | one filled path for each visible polygon, in painting order |
 //! | [`VisibilityMap::polygons`] | the visible polygons, the area of each, and a point of each |
-//! | [`VisibilityMap::edges`], [`crossings`](VisibilityMap::crossings) | visible and hidden runs of edges, and of lines in which polygons intersect |
+//! | [`VisibilityMap::edges`], [`crossings`](VisibilityMap::crossings) | [runs](EdgeRun) of edges, and of the lines in which polygons intersect; a run is a part that is entirely visible or entirely hidden |
 //! | [`VisibilityMap::lines`], [`markers`](VisibilityMap::markers) | the visible parts of an overlay's lines and points |
 //! | [`VisibilityMap::regions`] | the parts of the picture in which the same translucent polygons lie one behind the other |
 //! | [`polylines`] | runs joined into few long polylines, sorted to shorten pen travel |
@@ -16,8 +16,8 @@
 //! A [`VectorPicture`] combines these results with colours and line styles of your choice. The picture can be
 //! written as SVG, TikZ and, with the feature `pdf`, PDF.
 //!
-//! [`ViewOptions::opacities`] makes polygons translucent. [`Drawing::translucent`] hides nothing and needs no
-//! map.
+//! [`ViewOptions::opacities`] makes polygons translucent. If all polygons are translucent,
+//! [`Drawing::translucent`] draws them without a map.
 //!
 //! ```
 //! use binspace::drawing::{VectorPicture, ViewOptions};

@@ -30,8 +30,8 @@ pub struct LineRun {
     pub ends: [[f64; 2]; 2],
     /// Whether the run is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of the run; `None` unless layers were [counted](Hidden::Count). The
-    /// number is 0 for a visible run: translucent polygons in front do not count.
+    /// The number of polygons in front of a hidden run, including translucent polygons; 0 for a visible run.
+    /// `None` unless the polygons were [counted](Hidden::Count).
     pub layers: Option<u32>,
 }
 
@@ -63,18 +63,21 @@ impl LineRun {
 
 impl VisibilityMap<'_> {
     /// Returns the lines of an overlay of the same tree, clipped to the picture. Each segment is divided into
-    /// visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs are sorted by
-    /// segment in input order, then from the start of the segment to its end.
+    /// [runs](LineRun), which are entirely visible or entirely hidden. With [`Hidden::Skip`], only visible
+    /// runs are returned. Runs are sorted by segment in input order, then from the start of the segment to
+    /// its end.
     ///
-    /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of the point.
-    /// An edge or a corner of the polygon suffices. A segment within the tolerance of a polygon's plane
-    /// counts as lying on the plane, and the polygon does not hide the segment. A segment that is further
-    /// from the plane on one side only is treated as entirely on that side. These decisions are exact; only
-    /// the ends of runs are rounded. Polygons seen edge-on hide nothing, lines hide nothing, and a segment
-    /// seen end-on has no run.
+    /// A point of a line is hidden if an opaque polygon is in front of the point. It suffices that an edge or
+    /// a corner of the polygon is in front of the point. Polygons seen edge-on hide nothing, and lines hide
+    /// nothing. A segment seen end-on has no run.
     ///
-    /// O(n log n) for n segments and cells (or faces, with [`Hidden::Count`]), plus the number of pairs of a
-    /// segment and a cell (or face) that have points in common.
+    /// A segment that lies within the tolerance of a polygon's plane counts as lying on the plane, and the
+    /// polygon does not hide the segment. A segment that reaches further than the tolerance on only one side
+    /// of the plane counts as entirely on that side. These decisions are exact; only the ends of runs are
+    /// rounded.
+    ///
+    /// Takes O(n log n + k) for n segments and cells, and k pairs of a segment and a cell that meet in the
+    /// picture. With [`Hidden::Count`], n and k also include hidden polygons.
     ///
     /// # Errors
     ///

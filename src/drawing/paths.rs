@@ -119,8 +119,8 @@ impl<'d> Path<'d> {
         self.record.polygon
     }
 
-    /// Returns whether the path is only a part of its polygon: the visible part of a polygon in a cycle of
-    /// polygons, or one of several parts of a translucent polygon.
+    /// Returns whether the path is only a part of its polygon. Such a part is the visible part of a polygon
+    /// in a cycle of polygons that hide one another, or one of several parts of a translucent polygon.
     pub fn is_clipped(&self) -> bool {
         self.record.is_clipped
     }
@@ -137,12 +137,12 @@ impl<'d> Path<'d> {
         self.ranges().map(move |range| &corners[range])
     }
 
-    /// Returns a list for each of the [`outlines`](Self::outlines): the edges of the polygon along the
-    /// outline's sides. Entry `i` of the list belongs to the side that begins at corner `i`.
+    /// Returns one list for each of the [`outlines`](Self::outlines). Entry `i` of a list is the number of
+    /// the polygon's edge that contains the outline's side from corner `i` to the next corner.
     ///
-    /// An edge has the number of the polygon's corner where it begins. `None` stands for sides along the
-    /// border of the picture, along other polygons, and along edges that triangulation made. A side along
-    /// several collinear edges has the number of the edge at the middle of the side.
+    /// The number of an edge is the number of the polygon's corner where the edge begins. `None` stands for
+    /// sides along the border of the picture, along other polygons, and along edges that triangulation made.
+    /// If a side contains several collinear edges, the entry is the edge at the middle of the side.
     pub fn edges(&self) -> impl Iterator<Item = &'d [Option<u32>]> + Clone + use<'d> {
         let edges = &self.drawing.edges;
         self.ranges().map(move |range| &edges[range])
@@ -465,14 +465,15 @@ const SHARE: usize = 256;
 impl VisibilityMap<'_> {
     /// Returns the view as filled outlines, one path for each visible opaque polygon.
     ///
-    /// Polygons are drawn whole, each before the polygons that are visible above it. Polygons in cycles are
-    /// clipped: only their visible parts are drawn. Most scenes have no such cycles. Polygons whose visible
-    /// area is less than [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
+    /// Polygons are drawn whole. Each polygon is drawn before the polygons that are visible in front of it.
+    /// If polygons hide one another in a cycle, only their visible parts are drawn. Most scenes have no such
+    /// cycles. Polygons whose visible area is less than
+    /// [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
     ///
-    /// Translucent polygons follow the polygons behind them. A translucent polygon in a cycle has several
-    /// paths, as in [`Drawing::translucent`]; each visible point of the polygon is in one path. Time and
-    /// memory are quadratic in the number of translucent polygons that overlap one another. If all polygons
-    /// are translucent, `Drawing::translucent` takes less time and memory.
+    /// A translucent polygon is drawn after the polygons behind it. If the polygon is in a cycle, it has
+    /// several paths, as in [`Drawing::translucent`]; each visible point of the polygon is in one path. Time
+    /// and memory are quadratic in the number of translucent polygons that overlap one another. If all
+    /// polygons are translucent, `Drawing::translucent` takes less time and memory.
     ///
     /// # Errors
     ///

@@ -16,8 +16,8 @@ const CHOICES: usize = 8;
 pub struct Polyline {
     /// The points, from one end to the other. The last point of a closed line is its first.
     pub points: Vec<[f64; 2]>,
-    /// The input indices of the segments of the line, in drawing order. There is one segment less than
-    /// points.
+    /// The indices, in the input, of the segments of the line, in drawing order. A line of n points has n − 1
+    /// segments.
     pub segments: Vec<usize>,
 }
 
@@ -57,12 +57,12 @@ impl AsRef<[[f64; 2]]> for Polyline {
 ///
 /// Each segment is drawn once. A line that is not closed begins and ends where an odd number of segments
 /// meet: lines are Eulerian trails, found by Hierholzer's algorithm (1873). If a line can continue in several
-/// ways, it continues with the straightest of a few segments. Two ends are shared if they are equal when
-/// rounded to a thousandth of a pixel, so two ends that are closer together than a thousandth of a pixel may
-/// stay separate. Segments with an infinite or NaN coordinate are left out.
+/// ways, it continues with the straightest of a few segments. Two segments share an end if the two positions
+/// are equal after rounding to a thousandth of a pixel. (So two ends that are closer together than that may
+/// stay separate.) Segments with an infinite or NaN coordinate are left out.
 ///
-/// The next line is always the line with an end nearest to the pen, which begins at (0, 0). O(n log n) for n
-/// segments, unless ends are spread very unevenly.
+/// The pen begins at (0, 0). The next line is always the line that has the end nearest to the pen. Takes
+/// O(n log n) for n segments, unless ends are spread very unevenly.
 ///
 /// # Errors
 ///

@@ -89,7 +89,7 @@ pub struct Stroke {
     pub colour: [u8; 3],
     /// The opacity, from 0 to 1. Default: 1.
     pub opacity: f64,
-    /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, the line is solid. The
+    /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, for a solid line. The
     /// line is also solid if one of the lengths is 0.
     pub dashes: Option<[f64; 2]>,
     /// Whether a line ends in a half disc beyond its last point. Default: `true`.
@@ -250,9 +250,9 @@ impl VectorPicture {
         Self { background: Some(colour), ..self }
     }
 
-    /// Adds the paths of a drawing. The paths are [batched](Drawing::batched) by paint, and
-    /// [trapped](Drawing::trapped) to close the seams between paths. `paint` is called once for each polygon
-    /// that has a path, with the polygon's number.
+    /// Adds the paths of a drawing. `paint` returns the paint of a polygon; it is called with the polygon's
+    /// number, once for each polygon that has a path. Paths with equal paint are [batched](Drawing::batched),
+    /// and opaque paths are [trapped](Drawing::trapped), which closes the seams between paths.
     ///
     /// A stroke follows the polygon's own [edges](Path::edges). The stroke is painted directly after its
     /// path, so later paths cover the stroke. Drawings with strokes are not batched. The lines and points of
@@ -334,8 +334,8 @@ impl VectorPicture {
         }
     }
 
-    /// Adds one line of text, centred at a point: horizontally by its width, vertically by half the height of
-    /// a capital letter. `size` is the height of the font.
+    /// Adds one line of text. The point `at` is halfway along the text, at half the height of a capital
+    /// letter. `size` is the size of the font, in pixels.
     ///
     /// The paint's stroke is painted below the letters. Half of the stroke's width is visible around the
     /// letters, which keeps the letters legible on any background. The font is Helvetica or, in SVG, the
@@ -351,12 +351,12 @@ impl VectorPicture {
         }
     }
 
-    /// Groups the shapes that `add` adds, and sets attributes of the group in an SVG: `class`, `id`, and
-    /// names that begin with `data-`.
+    /// Groups the shapes that `add` adds, and sets attributes of the group in an SVG. The attributes may be
+    /// `class`, `id`, and names that begin with `data-`.
     ///
-    /// The attributes of a group of one shape are written to the shape. Values may be any text. Other names,
-    /// names with characters other than small letters, digits and hyphens, and repeated names are left out. A
-    /// PDF has no groups.
+    /// If a group has one shape, the shape itself has the attributes. Values may be any text. Attributes with
+    /// other names are left out, and so are attributes whose names have characters other than small letters,
+    /// digits and hyphens. If a name is repeated, only its first attribute is written. A PDF has no groups.
     ///
     /// ```
     /// use binspace::drawing::VectorPicture;

@@ -21,15 +21,15 @@ const MOST_PAIRS: usize = 400;
 impl Drawing {
     /// Moves paths with equal keys next to one another if that does not change the picture.
     ///
-    /// Paths that overlap keep their order, and no path moves across a line or a point of an
-    /// [overlay](Self::display_list). `key` is called with numbers of polygons. Files are shorter if
-    /// consecutive paths share a colour, and a plotter changes its pen less often.
+    /// `key` returns the key of the polygon with a given number, for example its colour. Paths that overlap
+    /// keep their order, and no path moves across a line or a point of an [overlay](Self::display_list).
+    /// Files are shorter if consecutive paths share a colour, and a plotter changes its pen less often.
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically.
     ///
-    /// The order is a greedy topological order. Among the paths that may come next, it chooses a path with
-    /// the key of the previous path. If there is no such path, it chooses a path with the most frequent key.
-    /// O(n log n) for n paths, plus the number of overlaps. If there are too many overlaps (400 n pairs of
-    /// boxes), nothing moves.
+    /// The order is a greedy topological order. Several paths may be possible as the next path. If one of
+    /// them has the key of the previous path, it is the next path. Otherwise, the next path has the most
+    /// frequent key among the possible paths. Takes O(n log n + k) for n paths and k pairs of overlapping
+    /// paths. If more than about 400 n pairs of bounding boxes overlap, nothing moves.
     #[must_use]
     pub fn batched<K: Ord>(&self, key: impl Fn(usize) -> K) -> Self {
         let paths: Vec<Path<'_>> = self.paths().collect();
@@ -225,14 +225,19 @@ impl Drawing {
     /// Viewers blend the border pixels of each path with the pixels below. Along an edge of two polygons that
     /// each cover half of a pixel, a quarter of the background shows. Printers close such gaps by *trapping*
     /// (ISO 32000-1, 14.11.6): the lower area is extended by about a pixel under the upper area. The upper
-    /// area is opaque and painted later, so the extension is not visible. `is_opaque` is called with numbers
-    /// of polygons. Polygons that are not opaque are not extended. Edges without an opaque neighbour are not
-    /// extended either, nor edges whose neighbour is not convex and has many corners, nor edges whose
-    /// extension would have less than a tenth of a square pixel. No path is added, removed or moved; outlines
-    /// only gain corners. An extended side is no longer an [edge](Path::edges) of its polygon.
+    /// area is opaque and painted later, so the extension is not visible. `is_opaque` returns whether the
+    /// polygon with a given number is opaque. A side of an outline is extended if
     ///
-    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically. O(n log n)
-    /// for n corners, unless the corners are spread very unevenly.
+    /// - its own polygon is opaque;
+    /// - a polygon that is painted later touches the side, and is opaque;
+    /// - the outline of that polygon is convex or has at most 24 corners; and
+    /// - the extension has at least a tenth of a square pixel.
+    ///
+    /// No path is added, removed or moved; outlines only gain corners. An extended side is no longer an
+    /// [edge](Path::edges) of its polygon.
+    ///
+    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically. Takes
+    /// O(n log n) for n corners, unless the corners are spread very unevenly.
     #[must_use]
     pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {
         let mut grid = Grid::new(self.size, self.corners.len());

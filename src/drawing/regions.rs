@@ -140,8 +140,8 @@ fn stack(layers: &[PolygonLayer], last: u32) -> Vec<usize> {
 }
 
 impl Region {
-    /// Returns the visible polygons, front to back: translucent polygons, then the opaque polygon behind
-    /// them, if any. A polygon that is folded over itself is listed more than once.
+    /// Returns the indices of the visible polygons, front to back: the translucent polygons, then the opaque
+    /// polygon behind them, if any. A polygon that is folded over itself is listed more than once.
     pub fn polygons(&self) -> &[usize] {
         &self.polygons
     }
@@ -151,8 +151,8 @@ impl Region {
         self.outlines.iter().map(|outline| area(outline)).sum::<f64>().max(0.0)
     }
 
-    /// Returns the outlines of the region, to be filled together, like the outlines of a
-    /// [`Path`](super::Path). Two regions have no area in common.
+    /// Returns the outlines of the region. Fill them together, like the outlines of a
+    /// [`Path`](super::Path::outlines). Two regions have no area in common.
     pub fn outlines(&self) -> impl Iterator<Item = &[[f64; 2]]> + Clone {
         self.outlines.iter().map(Vec::as_slice)
     }

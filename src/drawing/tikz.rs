@@ -39,14 +39,21 @@ impl VectorPicture {
     /// assert!(picture.to_tikz().contains("binspace/axis/.try"));
     /// ```
     ///
-    /// A pixel is a big point, 1/72 inch. Each word of the `class` of a [group](Self::group) is a style that
-    /// the document may define, for example `\tikzset{binspace/axis/.style={draw=red}}`. A style overrides
-    /// the colours and lines of a group whose shapes all have the same paint. In other groups, shapes
-    /// override the style. Labels override the style in all groups of several shapes. Words with characters
-    /// other than letters, digits and hyphens, and other attributes, are left out. Labels are in the
-    /// document's font, which must contain their characters. Strokes of labels are left out. Shapes that
-    /// reach further than 16 000 pixels, and shapes with a wider stroke or longer dashes, are left out,
-    /// because TeX has no lengths of this size.
+    /// A pixel becomes a big point, which is 1/72 inch. Each word of the `class` of a [group](Self::group) is
+    /// a style that the document may define, for example `\tikzset{binspace/axis/.style={draw=red}}`:
+    ///
+    /// | shape | its colour and line come from |
+    /// |---|---|
+    /// | a label in a group of several shapes | the label |
+    /// | any other shape in a group whose shapes all have the same paint | the style, if the document defines it |
+    /// | any other | the shape |
+    ///
+    /// Labels are in the document's font, which must contain their characters. Left out are
+    ///
+    /// - strokes of labels;
+    /// - words of a `class` with characters other than letters, digits and hyphens, and all other attributes;
+    /// - shapes that reach further than 16 000 pixels, or have a wider stroke or longer dashes, because TeX
+    ///   has no lengths of this size.
     pub fn to_tikz(&self) -> String {
         let mut out = HEAD.to_owned();
         // Writing to a string does not fail.

@@ -22,12 +22,12 @@ use crate::view::Camera;
 const ROUNDS: usize = 8;
 
 impl Drawing {
-    /// Returns all polygons as filled outlines, with no hidden parts removed. Paint the paths in order, each
-    /// with its polygon's opacity. Each point of each polygon is in one path.
+    /// Returns all polygons as filled outlines, including the parts behind other polygons. Paint the paths in
+    /// order, each with its polygon's opacity. Each point of each polygon is in one path.
     ///
-    /// Polygons are split only if no painting order of whole polygons is found. The tree's pieces of such a
-    /// polygon are then joined, as long as the joined parts have a painting order from this viewpoint. A bent
-    /// polygon that overlaps itself in the picture has at least one path for each of its faces.
+    /// A polygon is split only if no painting order of whole polygons is found. Its parts are the tree's
+    /// fragments, joined where the joined parts still have a painting order from this viewpoint. A polygon
+    /// that is not planar and overlaps itself in the picture has at least one path for each of its triangles.
     ///
     /// The option [`front_faces_only`](ViewOptions::front_faces_only) applies. Polygons with opacity 0 are
     /// left out; other opacities, and the least area, have no effect. If all polygons are opaque,
@@ -40,21 +40,25 @@ impl Drawing {
     /// [`display_list`](Self::display_list). To paint them above all paths, paint the runs of
     /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last.
     ///
-    /// A segment is cut where its place in the order changes. Each part is painted after the polygons behind
-    /// the part and the polygons that the part lies on, and before the polygons in front of the part.
-    /// `VisibilityMap::lines` states which polygons are in front. Lines and points with the same place in the
-    /// order are painted in input order, lines first. Two lines that cross in the picture may also be painted
-    /// in input order, whichever is nearer. All lines and points are marked as visible.
+    /// A segment is cut where its place in the order changes. Each part of the segment is painted after the
+    /// polygons behind the part and the polygons that the part lies on, and before the polygons in front of
+    /// the part. The rules of `VisibilityMap::lines` decide which polygons are in front. Lines and points
+    /// with the same place in the order are painted in input order, lines first. Two lines that cross in the
+    /// picture may also be painted in input order, whichever is nearer. All lines and points are marked as
+    /// visible.
     ///
-    /// An overlay does not change the paths, with one exception: a line along the border of two polygons that
-    /// touch only at the border, one behind the line and the other in front. Then these two polygons are
-    /// painted in that order, which may change the number of paths of polygons.
+    /// An overlay does not change the paths, with one exception. Consider two polygons that touch in the
+    /// picture only along a common border, and a line along this border, with one polygon behind the line and
+    /// the other polygon in front of it. The polygon behind the line is then painted before the other
+    /// polygon. This may change the number of paths.
     ///
     /// A part of a line is always painted after all polygons behind the part. Polygons in front of the part
     /// may also be painted before the part in two cases:
     ///
-    /// - pairs of polygons as above close a cycle, or are not all found in a few rounds;
-    /// - a bent polygon, which is one path, has one face behind the line and another face in front.
+    /// - several pairs of polygons such as the pair above form a cycle, or there are too many such pairs to
+    ///   find all;
+    /// - a polygon that is not planar is one path, and one part of this polygon is behind the line and
+    ///   another part is in front of the line.
     ///
     /// # Errors
     ///

@@ -33,11 +33,11 @@
 //!
 //! # Conventions
 //!
-//! The conventions are the conventions of CSS. On the screen x points right, y down and z towards the viewer,
-//! in one unit, usually the pixel. A matrix maps a point (u, v) of its layer, as (u, v, 0, 1), to homogeneous
-//! screen coordinates (x, y, z, w), and includes the perspective. If w is positive, the point is at (x/w,
-//! y/w) on the screen, and a larger z/w is nearer to the viewer. So the page is seen along −z *after* the
-//! division, and layers are painted in the order of increasing z/w.
+//! The conventions of CSS apply. On the screen, x points right, y points down, and z points towards the
+//! viewer. All three have the same unit, usually the pixel. A matrix maps a point (u, v) of its layer, as
+//! (u, v, 0, 1), to homogeneous screen coordinates (x, y, z, w), and includes the perspective. If w is
+//! positive, the point is at (x/w, y/w) on the screen, and a larger z/w is nearer to the viewer. So the page
+//! is seen along −z *after* the division, and layers are painted in the order of increasing z/w.
 //!
 //! If depths of your matrices increase away from the viewer, negate their third row. If depths are from 0 to
 //! 1, multiply the third row by the size of the viewport: depths are compared with the same tolerance as x
@@ -76,48 +76,50 @@
 //!
 //! # Pieces of a layer
 //!
-//! A layer is clipped, in homogeneous coordinates, to its [ancestors](Layer::clipped_by) and to a box on
-//! the screen, and then divided by w:
+//! A layer is clipped, in homogeneous coordinates, to its [ancestors](Layer::clipped_by) and to a box. Then
+//! its corners are divided by w. The box depends on the length R, which is 2²⁰ times the longer side of the
+//! viewport:
 //!
 //! | | the box |
 //! |---|---|
-//! | x, y | the viewport; or, if [`unclipped`](Layers::unclipped), 2²⁰ longer sides of the viewport around it |
-//! | depth z/w | 2²⁰ longer sides of the viewport to the front and to the back |
+//! | x, y | the viewport; or, if [`unclipped`](Layers::unclipped), the viewport extended by R on each side |
+//! | depth z/w | from −R to R |
 //!
-//! Points in the box have a positive w. The limit of depth is the near plane. With the perspective d of CSS,
-//! the near plane is where w, the distance from the eye as a share of d, equals d / (2²⁰ longer sides). There
-//! a layer appears about a million times enlarged. Inside the viewport, only a layer that nearly passes
-//! through the eye is that near, and such a layer is seen edge-on.
+//! Points in the box have a positive w. The front of the box, at depth R, is the near plane. With the CSS
+//! perspective of distance d, w is the distance from the eye divided by d, and w is about d / R at the near
+//! plane. If d is about the longer side, layers at the near plane are magnified about a million times. Inside
+//! the viewport, only a layer that nearly passes through the eye reaches the near plane, and such a layer is
+//! seen edge-on.
 //!
 //! | layer | result |
 //! |---|---|
-//! | numbers that are NaN or infinite, or whose products are | an error that names the layer |
-//! | outside the box: behind the eye, beside the viewport, or at a depth of more than 2²⁰ longer sides of the viewport, such as 10¹⁸ pixels | no piece |
-//! | any, if the viewport has no area | no piece |
+//! | has a number that is NaN, infinite, or so large that a product with another of its numbers is infinite | an error that names the layer |
+//! | outside the box: behind the eye, beside the viewport, or at a depth beyond R, such as 10¹⁸ pixels | no piece |
+//! | any layer, if the viewport has no area | no piece |
 //! | a rectangle without area, or with low and high exchanged | no piece |
 //! | outside an ancestor that [clips](Layer::clipped_by) the layer, or clipped by an ancestor whose matrix maps the ancestor to a line or a point | no piece |
 //! | mapped by its matrix to a line or a point | no piece |
-//! | seen edge-on, up to the rounding of the matrix; also a rectangle so far from its own origin that this rounding is as large as the area on the screen | no piece |
-//! | numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸ (for example a matrix times 10⁻³¹⁰), or a product of the rectangle's sides below 2·10⁻³⁰⁸ (for example 10⁻¹⁷⁰ by 10⁻¹⁷⁰) | no piece |
-//! | smaller on the screen than the rounding of positions, 2⁻⁵² of the page's reach | no piece |
-//! | any other | a convex polygon of at most ten corners, and four more for each ancestor that clips it, in one piece or, if other layers cut it, several |
+//! | seen edge-on within the rounding of the matrix; also a rectangle so far from its own origin that this rounding is as large as the area on the screen | no piece |
+//! | has numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸ (for example a matrix times 10⁻³¹⁰), or a product of the rectangle's sides below 2·10⁻³⁰⁸ (for example 10⁻¹⁷⁰ by 10⁻¹⁷⁰) | no piece |
+//! | smaller on the screen than 2⁻⁵² of the extent of all layers, to which positions are rounded | no piece |
+//! | any other layer | a convex polygon of at most ten corners, plus four for each ancestor that clips it; in one piece, or in several pieces if other layers cut it |
 //!
 //! Every other layer that is partly in the box has pieces. Only NaN, infinite and too large numbers are an
-//! error; a card that turns past its edge, or leaves the screen, is not. [`Layers::visible`] counts the
-//! layers with pieces, and [`LayerPiece::layer`] identifies them. A layer's number is its index in the list,
-//! whether or not other layers have pieces. Layers in one plane, by the [tolerance](#tolerance), are painted
-//! in the order of the list.
+//! error. A card that turns past its edge, or leaves the screen, causes no error. [`Layers::visible`] counts
+//! the layers with pieces, and [`LayerPiece::layer`] identifies them. A layer's number is its index in the
+//! list, whether or not other layers have pieces. Layers that lie in one plane within the
+//! [tolerance](#tolerance) are painted in the order of the list.
 //!
 //! # Why layers are clipped
 //!
 //! Near the eye's plane, divided coordinates are unbounded, and the default tolerance of a
-//! [`BspTree`](crate::BspTree) is a share of the scene's extent. Consider pages of 30 layers above a floor
-//! that reaches behind the eye. If their parts with w ≥ 10⁻⁹ are divided by w and passed directly to a tree,
-//! they are painted in a wrong order at 67 to 97 % of the points where layers overlap. With w ≥ 10⁻⁶, one of
-//! four pages is still wrong (at 42 % of these points). No page is wrong if layers are clipped as above, or
-//! not clipped to the viewport but with the tolerance of this module. (Bench `peers`, section `clipping`.)
-//! Clipping to the viewport also leaves fewer layers to cut, because many layers of a long page are not on
-//! the screen.
+//! [`BspTree`](crate::BspTree) is a share of the scene's extent. Four pages of 30 layers above a floor that
+//! reaches behind the eye show the effect. If the parts with w ≥ 10⁻⁹ are divided by w and passed directly to
+//! a tree, the painting order is wrong at 67 to 97 % of the points where layers overlap. If the parts with
+//! w ≥ 10⁻⁶ are passed, one of the four pages is still wrong, at 42 % of these points. No page is wrong with
+//! the tolerance of this module, clipped to the viewport or [unclipped](Layers::unclipped). (Bench `peers`,
+//! section `clipping`.) Clipping to the viewport also leaves fewer layers to cut, because many layers of a
+//! long page are not on the screen.
 //!
 //! # Antialiasing
 //!
@@ -134,12 +136,15 @@
 //!
 //! # Tolerance
 //!
-//! A page has one tolerance, a length on the screen, where depth counts like x and y. The tolerance is four
+//! A page has one tolerance: a length on the screen, in the unit of x, y and depth. The tolerance is four
 //! times the largest rounding error of a corner's distance from its layer's plane. Each number of a matrix is
 //! assumed to have a relative error of 2⁻⁵², or of 2⁻²³ if the layer is made by [`Layer::from_f32`]. The
-//! tolerance is between 10⁻⁹ and 10⁻⁵ of the viewport's longer side. The tolerance is also at least 2⁻⁴⁵ of
-//! the largest coordinate (x, y or depth) of any corner. That limit exceeds 10⁻⁹ of the longer side only if a
-//! layer reaches further than 35 000 times the longer side.
+//! tolerance has three limits:
+//!
+//! - at least 10⁻⁹ of the viewport's longer side;
+//! - at least 2⁻⁴⁵ of the largest coordinate (x, y or depth) of any corner, which matters only if a layer
+//!   reaches further than 35 000 times the longer side;
+//! - at most 10⁻⁵ of the longer side.
 //!
 //! The order of two layers where they overlap:
 //!
@@ -147,11 +152,11 @@
 //! |---|---|
 //! | with equal matrices | in the order of the list, because they lie in one plane by definition |
 //! | each with all its corners within the tolerance of the other's plane | in the order of the list |
-//! | further apart where they overlap than twice the tolerance, measured along the normal of either plane | by depth |
+//! | everywhere in their overlap more than twice the tolerance apart, measured along the normal of either plane | by depth |
 //! | any other | in either order |
 //!
-//! In an unclipped page, a layer that reaches behind the eye has corners so far away that single pages
-//! violate the second row: fewer than one in a thousand of the hard pages in the tests.
+//! In an unclipped page, a layer that reaches behind the eye has corners so far away that the second row can
+//! be violated. In the tests, this occurs in fewer than one in a thousand of the most difficult pages.
 //!
 //! The first three rows have the same exception as the [tree](crate::BspTree#exactness). Two layers may be
 //! painted in either order if they overlap only within twice the tolerance of the plane of a third layer in

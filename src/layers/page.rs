@@ -67,8 +67,8 @@ struct Outline {
 }
 
 impl Layers {
-    /// Creates an empty page on a screen, from the `low` to the `high` corner of the viewport. If the
-    /// viewport has no area, no layer is visible.
+    /// Creates an empty page. The viewport is the rectangle of the screen from the corner `low` to the corner
+    /// `high`. If the viewport has no area, no layer is visible.
     pub fn new([low, high]: [[f64; 2]; 2]) -> Self {
         Self {
             viewport: [low.into(), high.into()],
@@ -85,8 +85,8 @@ impl Layers {
     }
 
     /// Turns off clipping to the viewport, for pages that are painted once and scrolled. The page becomes
-    /// empty. Layers outside the viewport are cut as well, which takes time. The viewport still determines
-    /// the scale.
+    /// empty. Layers outside the viewport are cut as well, which takes time. The size of the viewport still
+    /// determines the [tolerance](super#tolerance) and the limits of depth.
     #[must_use]
     pub fn unclipped(mut self) -> Self {
         self.clear();
@@ -94,8 +94,9 @@ impl Layers {
         self
     }
 
-    /// Sets the viewport, from its `low` to its `high` corner, for example when a window is resized. If the
-    /// viewport changes, the page is empty until the next [`update`](Self::update). Memory is kept.
+    /// Sets the viewport: the rectangle from the corner `low` to the corner `high`. Call this method when a
+    /// window is resized, for example. If the viewport changes, the page is empty until the next
+    /// [`update`](Self::update). Memory is kept.
     pub fn set_viewport(&mut self, [low, high]: [[f64; 2]; 2]) {
         let viewport = [low.into(), high.into()];
         if self.viewport != viewport {
@@ -244,19 +245,19 @@ impl Layers {
         }
     }
 
-    /// Returns the index of the nearest layer at a point of the screen, and the point (u, v) of the layer
-    /// that appears at that point: the first of the [`hits`](Self::hits).
+    /// Returns the nearest layer at a point of the screen: the first of the [`hits`](Self::hits). The result
+    /// is the index of the layer, and the point (u, v) of the layer that appears at the point of the screen.
     pub fn hit(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         self.hits(point).next()
     }
 
-    /// Returns all layers at a point of the screen, front to back, each once: the index of the layer, and the
-    /// point (u, v) of the layer that appears at that point.
+    /// Returns all layers at a point of the screen, front to back. Each layer is returned once, as its index
+    /// and the point (u, v) of the layer that appears at the point of the screen.
     ///
-    /// O(pieces). The order is the exact order of the pieces. Whether a piece covers the point is decided in
-    /// `f64`, by its [vertices](LayerPiece::vertices): a point outside counts as inside if the point is
-    /// closer to an edge than 10⁻⁹ of the viewport's longer side. Where pieces of one layer meet, the nearer
-    /// piece counts.
+    /// The order is the exact order of the pieces. Whether a piece covers the point is decided in `f64`, from
+    /// the piece's [vertices](LayerPiece::vertices). A point outside the piece counts as inside if it is
+    /// closer to an edge than 10⁻⁹ of the viewport's longer side. If several pieces of one layer cover the
+    /// point, the nearest piece determines the layer's place. Takes O(p) for p pieces of the page.
     pub fn hits(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
         let slack = TOUCH * self.size();
         let at = DVec2::new(x, y);

@@ -26,12 +26,11 @@ impl<'p> LayerPiece<'p> {
         self.is_whole
     }
 
-    /// Returns the vertices, in the sense of the rotation from u to v: clockwise on the screen if the layer
-    /// is seen from its front.
+    /// Returns the vertices of the piece. They are listed in the direction of the rotation from the u axis to
+    /// the v axis. This direction is clockwise on the screen if the layer is seen from its front.
     ///
-    /// Pieces of one layer that share a vertex have the same bits for the vertex's position. The place in the
-    /// layer is u = Σ λ u/w ÷ Σ λ/w, and v likewise, with the weights λ of the vertex over the corners on the
-    /// screen.
+    /// Pieces of one layer that share a vertex have bit for bit the same position of the vertex. The place
+    /// (u, v) of a vertex that a cut made is interpolated with correct perspective.
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = LayerVertex> + use<'p> {
         let Self { layer, outline, fragment, .. } = *self;
         fragment.vertices().zip(fragment.weights()).map(move |(position, weights)| {
@@ -42,14 +41,19 @@ impl<'p> LayerPiece<'p> {
         })
     }
 
-    /// Returns the edge of the layer on which each edge of the piece (from a vertex to the next) lies. `None`
-    /// stands for an edge that a cut or the viewport made. [Antialias](super#antialiasing) only edges of the
-    /// layer: where pieces of one layer meet, antialiasing would let the background through.
+    /// Returns, for each edge of the piece, the number of the layer's edge that contains it. Edges of the
+    /// piece are in the order of the [vertices](Self::vertices), and each leads from a vertex to the next
+    /// vertex. [Antialias](super#antialiasing) only edges with a number: where pieces of one layer meet,
+    /// antialiasing would let the background through.
     ///
-    /// Edge 0 leads from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to 7
-    /// belong to the first [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Each further
-    /// ancestor that cuts has the next four numbers, in the order of the calls. Edges of the 64th and later
-    /// ancestors are `None`.
+    /// | number | edge |
+    /// |---|---|
+    /// | 0 | the edge of the layer's rectangle from the low corner along u |
+    /// | 1 | the next edge, along v |
+    /// | 2, 3 | the two edges back to the low corner |
+    /// | 4 to 7 | the four edges of the first ancestor added by [`clipped_by`](Layer::clipped_by), in the same order |
+    /// | 8 to 255 | four edges for each further ancestor, up to the 63rd |
+    /// | `None` | an edge made by a cut, by the viewport, or by an ancestor after the 63rd |
     pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u8>> + use<'p> {
         let outline = self.outline;
         self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
@@ -139,9 +143,10 @@ pub(super) fn interpolated(
 }
 
 /// A rectangle in its own coordinates, and a matrix that maps the rectangle to the screen. Rectangles of
-/// ancestors may cut the layer.
+/// ancestors may cut the layer: see [`clipped_by`](Self::clipped_by).
 ///
-/// Two layers are equal if their numbers are equal. An equal list of layers is an unchanged frame.
+/// Two layers are equal if all their numbers are equal. If the layers of a frame equal the layers of the
+/// previous frame, [`Layers::update`](super::Layers::update) does nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     low: DVec2,
@@ -202,10 +207,12 @@ impl Layer {
     /// the rectangles that cut the ancestor. Call this method again for further ancestors. The ancestor
     /// itself is painted only if it is also in the list of layers.
     ///
-    /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the visible part is
-    /// the intersection of both outlines. This part is rounded to `f64`, or exact if both layers have the
-    /// same matrix. Layers in different planes are cut along the ancestor's outline on the screen. If the
-    /// ancestor is seen edge-on, nothing remains.
+    /// | relation of layer and ancestor | visible part of the layer |
+    /// |---|---|
+    /// | they have the same matrix | the intersection of both outlines, exact |
+    /// | they lie in one plane, but have different matrices (CSS flattens the content of such an ancestor into its plane) | the intersection of both outlines, rounded to `f64` |
+    /// | they lie in different planes | the part inside the ancestor's outline on the screen |
+    /// | the ancestor is seen edge-on | none |
     ///
     /// ```
     /// use binspace::glam::{DMat4, DVec3};
@@ -258,8 +265,8 @@ impl Layer {
     }
 
     /// Returns the point (u, v) of the layer's plane that appears at a point of the screen, for drawing a
-    /// layer pixel by pixel. The point (u, v) may be outside the layer's rectangle. `None` if the plane does
-    /// not appear at the point of the screen, or appears as a line.
+    /// layer pixel by pixel. The point (u, v) may be outside the layer's rectangle. Returns `None` if the
+    /// plane does not appear at the point of the screen, or is seen edge-on.
     ///
     /// Without perspective, u and v are linear over the screen; otherwise u/w, v/w and 1/w are linear.
     pub fn local(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {

@@ -23,12 +23,13 @@ use crate::tree::parts::{Parts, Record};
 use crate::tree::{BspTree, Fragment, Mesh, Source};
 use crate::viewpoint::Ray;
 
-/// Moving polygons, lines and points in one exact order with a tree that does not change: doors, characters,
-/// a cursor; axes, curves, markers and labels.
+/// A set of moving polygons, lines and points that are painted in one exact order with a static tree.
+/// Examples are doors, characters and cursors, or the axes, curves, markers and labels of a plot.
 ///
 /// # Use
 ///
-/// Make an overlay once, replace its polygons whenever they move, and write one order of tree and overlay:
+/// Make an overlay once. Replace its polygons whenever they move. Then write one order of the tree's polygons
+/// and the overlay's polygons:
 ///
 /// ```
 /// use binspace::overlay::Overlay;
@@ -55,7 +56,7 @@ use crate::viewpoint::Ray;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// [`replace_with`](Self::replace_with) adds lines and points too, and an order iterates over [`Shape`]s:
+/// [`replace_with`](Self::replace_with) also takes lines and points. An order is an iterator over [`Shape`]s:
 ///
 /// ```
 /// use binspace::overlay::{Overlay, Shape, Shapes};
@@ -92,75 +93,85 @@ use crate::viewpoint::Ray;
 ///
 /// # Contents
 ///
-/// The planes of the tree cut each polygon, from the root to the leaves that the polygon reaches. A small
-/// separate tree orders the pieces that meet in one leaf. The tree itself is never cut or changed. A piece of
-/// a polygon is a [`Fragment`]. The overlay's polygons are numbered after the tree's polygons. Pieces of all
-/// kinds are numbered from the tree's [`len`](BspTree::len) on. All numbers are valid until the next
-/// [`replace`](Self::replace).
+/// Each polygon of the overlay passes down the tree, from the root to the leaves that the polygon reaches.
+/// The partition planes that the polygon crosses cut the polygon into *pieces*. Where several pieces reach
+/// one leaf, a small separate tree orders these pieces. The static tree itself never changes.
 ///
-/// Lines and points are cut and placed in the same way, and never cause a cut of a polygon. In a region that
-/// contains no polygon, planes through lines or perpendicular to an axis separate lines and points. Segments
-/// without length have no pieces.
+/// Lines and points pass down the tree in the same way. A line consists of *segments*, each between two
+/// consecutive corners, and planes cut the segments into pieces. Lines and points never cause a cut of a
+/// polygon. Segments without length have no pieces.
+///
+/// | item | method | numbers |
+/// |---|---|---|
+/// | polygon of the overlay | [`Fragment::polygon`] | follow the numbers of the tree's polygons |
+/// | line | [`Segment::line`] | from 0, in input order |
+/// | point | [`Marker::point`] | from 0, in input order |
+/// | piece of a polygon or of a line, or a point, in an order | [`Shape::index`] | follow the numbers of the tree's fragments: the first number is the tree's [`len`](BspTree::len) |
+///
+/// All numbers are valid until the next [`replace`](Self::replace).
 ///
 /// # Order
 ///
 /// The order is as exact as the tree's order: the rules on the page of [`BspTree`](BspTree#order) apply to
-/// the polygons of the tree and of the overlay. Coplanar polygons are in input order, the overlay's after the
-/// tree's. The tree's fragments keep their own order, with pieces between them.
+/// the polygons of the tree and of the overlay. Coplanar polygons are painted in input order: first the
+/// tree's polygons, then the overlay's polygons. The tree's fragments keep the order that they have without
+/// the overlay, and the overlay's pieces are inserted between them.
 ///
-/// If a line or point coincides in the picture, but not in space, with another line, point or polygon, the
-/// nearer shape is painted later. Exception: two shapes that lie, within the tolerance, in one dividing plane
-/// that is seen edge-on. Such shapes are painted polygons first, then lines in input order, then points, even
-/// if the shape painted first is nearer. Dividing planes are
+/// A line or a point, and another shape, are painted in this order:
+///
+/// | both shapes | painted |
+/// |---|---|
+/// | overlap in the picture, but do not touch in space | the nearer shape later |
+/// | lie in one plane and touch in space | polygons, then lines in input order, then points |
+/// | lie, within the tolerance, in one *dividing plane* that is seen edge-on | polygons, then lines in input order, then points, even if the shape painted first is nearer |
+///
+/// So an axis drawn on a wall is painted over the wall. A line that crosses a plane is cut at the plane, and
+/// a point at the cut is painted between the two parts. The dividing planes are
 ///
 /// - the planes of the tree ([`BspTree::nodes`]), and the planes of the overlay's polygons;
-/// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a
-///   point, and planes through segments. A segment's plane contains the next corner of the line, or, if that
-///   corner is collinear with the segment, the corner before the segment. If both corners are collinear with
-///   the segment, the plane is parallel to the z axis, or for a segment along z to the x axis.
+/// - in a part of space that contains lines or points but no polygon: planes perpendicular to an axis through
+///   a corner or a point, and planes through segments. The plane through a segment contains the next corner
+///   of the line, or, if that corner is collinear with the segment, the corner before the segment. If both
+///   corners are collinear with the segment, the plane is parallel to the z axis, or for a segment along z to
+///   the x axis.
 ///
-/// The exception never occurs for an eye that lies in no plane of a polygon or segment and shares no x, y or
+/// The third row never applies to an eye that lies in no plane of a polygon or segment and shares no x, y or
 /// z coordinate with a corner or point. (If a grid of markers is seen exactly along a plane of the grid, the
 /// nearest marker may be painted first. Move the eye a little, or pass the markers in another order.)
 ///
-/// Shapes in one plane are painted in this order: polygons, then lines in input order, then points. This
-/// order applies to shapes that coincide in *space*, and to all shapes in a dividing plane that is seen
-/// edge-on. So an axis drawn on a wall is painted over the wall. A line that crosses a plane is cut at the
-/// plane, and a point at the cut is painted between the two parts.
+/// A point at a corner of a line is painted after the two pieces of the line that meet at the corner, under
+/// two conditions: no polygon's plane passes through the corner, and no other point lies at the line's
+/// previous or next corner. Closed lines and repeated corners follow the same rule. If more than two segments
+/// meet at a point, some segments may be painted after the point.
 ///
-/// Where no polygon is involved, a point at a corner of a line is painted after both adjoining segments,
-/// provided that no point lies at the line's previous or next corner. Closed lines and repeated corners
-/// follow the same rule. If more than two segments meet at a point, some segments may be painted after the
-/// point.
-///
-/// The tolerance applies as for polygons:
+/// The tree's [tolerance](BspTree#exactness) also applies to lines and points:
 ///
 /// - a segment or point that reaches no further from a plane than the tolerance lies on the plane;
-/// - a segment that reaches further on only one side lies entirely on that side.
+/// - a segment that reaches further than the tolerance on only one side of a plane counts as entirely on that
+///   side.
 ///
-/// Orders ignore the widths of lines and the sizes of marks, which exist in the picture only. A wide line may
-/// extend over a polygon that the line itself only touches, such as one of two walls that meet at the line.
-/// That polygon may be painted over the line's border.
+/// Orders ignore the widths of lines and the sizes of markers, which exist in the picture only. A wide line
+/// may extend over a polygon that the line itself only touches, such as one of two walls that meet at the
+/// line. That polygon may be painted over the line's border.
 ///
 /// | | time |
 /// |---|---|
-/// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, plus the build of small trees where pieces meet |
+/// | [`replace_with`](Self::replace_with) | O(p · d) for p pieces and a tree of depth d, plus the build of small trees where pieces meet |
 /// | [`order`](Self::order), written or read | the time of the tree's order, plus a copy of its list |
 /// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
-/// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
+/// | [`welded_mesh`](Self::welded_mesh) | O(n + m log m) for n corners of the tree's polygons and m vertices of the overlay's pieces |
 ///
-/// If the bounding box of many faces, such as the faces of a body, lies on one side of a plane, all these
-/// faces are moved to that side at once. So a body reaches its leaf in little time if its faces are passed
-/// consecutively. Each `replace` builds the small tree of the body again, so a body of thousands of faces
-/// takes milliseconds.
+/// A body of many polygons passes down the tree in little time: if its bounding box lies on one side of a
+/// plane, all polygons move to that side at once. Each `replace` builds the small tree of the body again,
+/// which takes milliseconds for a body of thousands of polygons.
 ///
-/// All coordinates are rounded to the tree's grid, and the tree's tolerance applies. The grid is a cube
-/// around the middle of the tree's bounding box, with sides at least as long as the longest side of the box.
-/// A shape that reaches beyond the grid is an error:
-/// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes the grid of a tree larger.
+/// All coordinates are rounded to the tree's [grid](BspTree#exactness). The grid is a cube around the middle
+/// of the tree's bounding box, with sides at least as long as the longest side of the box. A shape that
+/// reaches beyond the grid is an error. To make the grid of a tree larger, build the tree with
+/// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds).
 ///
 /// An overlay keeps a copy of the tree's polygons: 24 bytes per corner and 12 per polygon. The first
-/// `replace` makes this copy, in O(n).
+/// `replace` makes this copy, in O(n) for n corners.
 pub struct Overlay {
     /// The faces of the tree, then the faces of the overlay: planes of both are numbered together.
     faces: Faces,
@@ -260,11 +271,12 @@ impl Overlay {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// The rules of [`BspTree::hits`] apply to all polygons: hits are exact, and at one point the tree's
-    /// polygons precede the overlay's. All hits of the overlay are found first, in time proportional to the
-    /// number of the overlay's boxes that the ray crosses. The first call after a [`replace`](Self::replace)
-    /// computes the boxes of all pieces, in time proportional to the number of pieces. The first call for a
-    /// tree also computes the tree's boxes, in O(n), like [`BspTree::bounds`].
+    /// The rules of [`BspTree::hits`] apply to all polygons, and hits are exact. If the ray hits several
+    /// polygons at one point, the tree's polygons precede the overlay's polygons. All hits of the overlay are
+    /// found first, in time proportional to the number of the overlay's boxes that the ray crosses. The first
+    /// call after a [`replace`](Self::replace) computes the boxes of all pieces, in time proportional to the
+    /// number of pieces. The first call for a tree also computes the tree's boxes, in O(n) for n fragments,
+    /// like [`BspTree::bounds`].
     ///
     /// # Errors
     ///
@@ -277,8 +289,8 @@ impl Overlay {
         Ok(self.targets(tree)?.hits(ray))
     }
 
-    /// Returns whether a polygon of the tree or of the overlay lies between two points, by the rules of
-    /// [`BspTree::is_occluded`].
+    /// Returns whether a polygon of the tree or of the overlay blocks a line of sight, by the rules of
+    /// [`BspTree::is_occluded`]. [`Ray::between`] makes the line of sight between two points.
     ///
     /// # Errors
     ///
@@ -287,10 +299,13 @@ impl Overlay {
         Ok(self.targets(tree)?.is_occluded(ray))
     }
 
-    /// Returns the pieces of polygons as vertices and triangles, without T-junctions between pieces. The mesh
-    /// is like the mesh of a tree. The mesh's pieces have the numbers that [orders](Self::order) list, from
-    /// the tree's [`len`](BspTree::len) on. The overlay's polygons are numbered after the tree's polygons.
-    /// The mesh shares no vertices with the tree's mesh, and no edge is welded with the tree's edges.
+    /// Returns the pieces of the overlay's polygons as vertices and triangles, without
+    /// [T-junctions](BspTree#t-junctions) between pieces.
+    ///
+    /// The mesh is separate from the tree's [mesh](BspTree::welded_mesh). The two meshes share no vertices,
+    /// so there can be T-junctions between the overlay's pieces and the tree's fragments. Pieces have the
+    /// same numbers as in an [order](Self::order), from the tree's [`len`](BspTree::len) on. The overlay's
+    /// polygons are numbered after the tree's polygons.
     ///
     /// [`Triangles::write_order_with`](crate::mesh::Triangles::write_order_with) writes one list of indices
     /// for both meshes:
@@ -318,7 +333,7 @@ impl Overlay {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// O(n) for n corners of the tree's polygons, and O(m log m) for m vertices of pieces.
+    /// Takes O(n + m log m) for n corners of the tree's polygons and m vertices of the overlay's pieces.
     ///
     /// # Errors
     ///

@@ -199,8 +199,8 @@ impl InsertionTree {
 
 /// The order of a tree's fragments and an overlay's pieces for one viewpoint: [`Overlay::order`].
 ///
-/// Back to front by default; see [`front_to_back`](Self::front_to_back). Write the order into a list of
-/// numbers, or iterate over its shapes.
+/// The order is back to front; [`front_to_back`](Self::front_to_back) reverses it. To read the order, write
+/// it as a list of numbers ([`write_into`](Self::write_into)), or iterate over its [`Shape`]s.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "an order is written or iterated over"]
 pub struct OverlayOrder<'a> {
@@ -223,12 +223,15 @@ impl Overlay {
         Ok(OverlayOrder { overlay: self, order: tree.order(viewpoint) })
     }
 
-    /// Returns whether no plane of the tree, and no plane that leads to the overlay's pieces, lies between
-    /// two viewpoints. If so, both orders are the same, as for [`BspTree::same_order`], until the next
-    /// [`replace`](Self::replace). [Culled](OverlayOrder::culled) orders may differ: write them again
-    /// whenever the camera moves.
+    /// Returns whether no plane that determines the order lies between two viewpoints. If so, both viewpoints
+    /// have the same order of fragments and pieces, until the next [`replace`](Self::replace).
+    /// [`BspTree::same_order`] states the rules.
     ///
-    /// O(planes); stops at the first plane between the two viewpoints.
+    /// [Culled](OverlayOrder::culled) orders may differ even then: write a culled order again whenever the
+    /// camera moves.
+    ///
+    /// Takes O(p) for p planes of the tree and of the overlay, and stops at the first plane between the two
+    /// viewpoints.
     ///
     /// # Errors
     ///
@@ -256,9 +259,9 @@ impl<'a> OverlayOrder<'a> {
         Self { order: self.order.front_to_back(), ..self }
     }
 
-    /// Leaves out the fragments and pieces that are outside a frustum or show the wrong side. Lines and
-    /// points have no sides, so they are left out only if they are outside the frustum. The other shapes keep
-    /// their order.
+    /// Leaves out the fragments and pieces that are outside the frustum of `culling`, or that are not seen
+    /// from the side that `culling` selects. Lines and points have no sides, so they are left out only if
+    /// they are outside the frustum. The remaining shapes keep their order.
     pub fn culled(self, culling: &'a Culling) -> Self {
         Self { order: self.order.culled(culling), ..self }
     }
@@ -266,12 +269,11 @@ impl<'a> OverlayOrder<'a> {
     /// Replaces a buffer's contents by the numbers of the fragments and pieces. Numbers below the tree's
     /// [`len`](BspTree::len) are fragments of the tree; the other numbers are [shapes](Overlay::shape).
     ///
-    /// Takes the time of [`BspTree::back_to_front_into`], plus the time to copy the list and to compare the
-    /// eye with each plane on the way from the root to a piece. An empty overlay adds no time. The buffer
-    /// also serves as working space; once it is large enough, nothing is allocated. A culled order skips
-    /// subtrees like a tree's [culled order](crate::Order::write_into), visits all planes on the way to the
-    /// pieces, and allocates working space. The first culled order after a [`replace`](Overlay::replace) also
-    /// computes the boxes of the pieces.
+    /// | order | time | memory |
+    /// |---|---|---|
+    /// | not culled | the time of [`BspTree::back_to_front_into`], plus a copy of the list, plus one comparison with the eye for each plane on the way from the root to a piece | the buffer, also as working space; once it is large enough, nothing is allocated |
+    /// | culled | the time of the tree's [culled order](crate::Order::write_into), plus all planes on the way from the root to a piece; the first culled order after a [`replace`](Overlay::replace) also computes the boxes of the pieces | allocates working space |
+    /// | of an empty overlay | the time of the tree's order | as for the tree's order |
     pub fn write_into(self, numbers: &mut Vec<u32>) {
         let Self { overlay, order } = self;
         if overlay.is_empty() {
@@ -306,8 +308,8 @@ impl<'a> IntoIterator for OverlayOrder<'a> {
     }
 }
 
-/// The fragments of a tree and the pieces of an overlay in an [`OverlayOrder`]. The whole order is
-/// written before the first item.
+/// An iterator over the fragments and pieces of an [`OverlayOrder`]. The whole order is written when the
+/// iterator is made.
 #[derive(Clone, Debug)]
 pub struct Overlaid<'a> {
     overlay: &'a Overlay,

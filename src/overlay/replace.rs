@@ -19,7 +19,7 @@ impl Overlay {
     ///
     /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is neither the
     /// tree that the overlay was made for nor a clone of it. After an error the overlay is empty. If a
-    /// polygon caused the error, [`Error::polygon`] is its number, counted from 0.
+    /// polygon caused the error, [`Error::polygon`] is its index in `polygons`, from 0.
     pub fn replace<P: Polygon>(
         &mut self,
         tree: &BspTree,
@@ -150,9 +150,9 @@ impl<P, L, Q> Shapes<P, L, Q> {
         Shapes { polygons, lines, points }
     }
 
-    /// Sets the lines: an iterator of any type of [`Polygon`](crate::Polygon), whose corners are joined in
-    /// order. The last corner is not joined to the first: to close a line, repeat the line's first corner. A
-    /// single corner makes no line.
+    /// Sets the lines: an iterator of any type of [`Polygon`](crate::Polygon). A line joins the corners of
+    /// such a polygon in order, but not the last corner to the first. To close a line, repeat the line's
+    /// first corner. A single corner makes no line.
     #[must_use]
     pub fn with_lines<T>(self, lines: T) -> Shapes<P, T, Q> {
         let Self { polygons, points, .. } = self;
@@ -222,17 +222,17 @@ impl Segment<'_> {
         self.number as usize
     }
 
-    /// Returns the two ends of the piece, in the direction of the line. A corner of the line is rounded to
-    /// the grid; a cut end is rounded like [`Fragment::vertices`]. The two pieces at a cut have the same bits
-    /// for the cut end.
+    /// Returns the two ends of the piece, in the direction of the line. An end at a corner of the line is the
+    /// corner, rounded to the grid. An end at a cut is rounded like [`Fragment::vertices`]. Two pieces that
+    /// meet at a cut have bit for bit the same end there.
     pub fn ends(&self) -> [DVec3; 2] {
         let mut ends = self.piece.vertices();
         [(); 2].map(|()| ends.next().unwrap_or_default())
     }
 
-    /// Returns the positions of the ends on the segment, from 0 at the first corner to 1 at the second,
-    /// rounded. For a piece shorter than the rounding error, the first position may be larger than the
-    /// second.
+    /// Returns the positions of the piece's two ends along the segment: 0 is the segment's first corner, and
+    /// 1 is its second corner. The positions are rounded. If a piece is shorter than the rounding error, its
+    /// first position may be larger than its second position.
     pub fn shares(&self) -> [f64; 2] {
         let mut ends = self.piece.weights().map(|weights| {
             weights.iter().map(|&(corner, weight)| f64::from(corner) * weight).sum()
@@ -274,8 +274,8 @@ impl Marker {
 }
 
 impl Overlay {
-    /// Returns the piece with a number; `None` if the number belongs to a fragment of the tree or to no
-    /// shape.
+    /// Returns the piece that has a given number in orders. Returns `None` if a fragment of the tree, or no
+    /// shape, has this number.
     pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
         let face = self.record(number)?.face;
         let piece = self.stored(number);
