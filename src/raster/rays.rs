@@ -276,9 +276,9 @@ impl Rays {
         self.viewpoint
     }
 
-    /// Returns the start and the direction of a pixel's ray, in units of the [grid](crate::Grid)'s spacing,
-    /// to compute the picture with other arithmetic. The ray of a parallel camera is a whole line: it also
-    /// extends behind its start.
+    /// Returns the start and the direction of a pixel's ray, in steps of the [grid](crate::Grid). Use them to
+    /// compute a picture with other arithmetic. The ray of a parallel camera is a whole line: it also extends
+    /// behind its start.
     #[doc(hidden)]
     pub fn ray(&self, x: u32, y: u32) -> [[i128; 3]; 2] {
         let wide = |v: [i64; 3]| v.map(i128::from);

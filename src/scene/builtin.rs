@@ -167,8 +167,9 @@ impl Builtin {
         size.unwrap_or(default).clamp(low, high)
     }
 
-    /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to this range. Scenes of only
-    /// one size ignore `size`; scenes without randomness ignore `seed`.
+    /// Generates the scene. A size outside the range of [`sizes`](Self::sizes) is clamped to this range;
+    /// `None` is the default size. Scenes of only one size ignore `size`. Scenes without randomness ignore
+    /// `seed`.
     pub fn build(self, size: Option<u32>, seed: u64) -> Scene {
         let clamp = |default| self.clamped(size, default);
         match self.row().2 {
