@@ -113,8 +113,8 @@ pub(crate) fn run<T: Send>(
     })
 }
 
-/// The thread pool of this process. A forked process gets a new pool: its parent's threads do not exist in
-/// it, and it would wait for these threads forever.
+/// The thread pool of this process. A forked process gets a new pool, because the threads of its parent do
+/// not exist in the forked process, which would wait for them forever.
 fn pool() -> PyResult<Arc<ThreadPool>> {
     static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
     let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);

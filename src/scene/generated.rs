@@ -45,8 +45,8 @@ pub fn newell_bars() -> Scene {
 /// Returns `count` upright squares of side 2 that all cross in the z axis, like the leaves of a revolving
 /// door; up is z.
 ///
-/// Square `i` is turned by `i`/`count` of half a turn; two squares are perpendicular. If each square is cut
-/// along the z axis, the `2·count` halves have a painting order for every eye.
+/// Square `i` is turned by `i`/`count` of half a turn. If `count` is 2, the squares are perpendicular. If
+/// each square is cut along the z axis, the `2·count` halves have a painting order for every eye.
 pub fn crossing(count: u32) -> Scene {
     let mut scene = of_eight_colours(format!("crossing:{count}"))
         .with_view(DVec3::new(2.5, -4.5, 2.0), DVec3::ZERO);

@@ -29,8 +29,8 @@ impl Scene {
     /// Up is y, because OBJ files do not define an up direction. Coordinates are read as `f64`. The scene's
     /// [`precision`](Self::precision) is four units in the last decimal that the coordinates need:
     ///
-    /// - If the file has a fixed number of decimals, all coordinates have the same last decimal. If it has a
-    ///   fixed number of significant digits, the last decimal of the largest coordinates counts.
+    /// - In a file with a fixed number of decimals, the smallest decimal of any coordinate counts. In a file
+    ///   with a fixed number of significant digits, the last decimal of the largest coordinates counts.
     /// - Zeros at the end of all coordinates do not count: `1.230000` and `4.500000` need two decimals.
     /// - A coordinate with more than 15 significant digits is first rounded to 15 digits:
     ///   `0.30000000000000004` needs one decimal.
