@@ -41,7 +41,7 @@ pub struct Preparation {
     /// The number of polygons without area, which have no fragments: polygons with fewer than three different
     /// corners, or with collinear corners. The count is exact after corners are rounded to the
     /// [grid](crate::Grid). Corners that are collinear as decimal numbers may not be collinear as `f64`. In
-    /// the tree of a cell, polygons outside the cell count too.
+    /// the tree of a cell of a [partition](crate::partition), polygons outside the cell are counted too.
     pub dropped: usize,
     /// The number of polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,

@@ -1,10 +1,10 @@
 //! Pictures of faces, exact in every pixel, and their comparison.
 //!
-//! A *face* is a convex planar polygon or triangle that a build made from an input polygon; see [`Faces`]. A
-//! camera becomes [`Rays`]: one integer ray per pixel. Exact integer arithmetic decides whether a ray meets a
-//! part of a face, and which of two faces it meets first. So a correct painter and a correct depth buffer
-//! make the *same* picture; if the pictures differ, one of the two is wrong. This module judges orders, so it
-//! ignores how an order was computed.
+//! A *face* is an input polygon that is convex and planar, or a triangle of another input polygon; see
+//! [`Faces`]. A camera becomes [`Rays`]: one integer ray per pixel. Exact integer arithmetic decides whether
+//! a ray meets a part of a face, and which of two faces it meets first. So a correct painter and a correct
+//! depth buffer make the *same* picture; if the pictures differ, one of the two is wrong. This module judges
+//! orders, so it ignores how an order was computed.
 //!
 //! This module shares no arithmetic with the builder. Planes are computed from the faces' corners by separate
 //! code, so a mistake in the builder's arithmetic is not repeated here, and becomes visible as wrong pixels.

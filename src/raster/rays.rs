@@ -247,8 +247,8 @@ impl Rays {
         Self { size, base, above: self.above + start, ..self.clone() }
     }
 
-    /// Restricts the rays to the fronts of faces: the sides from which the faces' corners are
-    /// counter-clockwise.
+    /// Makes the rays pass through the backs of faces, so that pictures show only front sides. From the front
+    /// of a face, its corners are counter-clockwise.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
     }

@@ -28,11 +28,11 @@ impl Scene {
     /// | part | content |
     /// |---|---|
     /// | head | the bytes `binspacescen`, the version as `u32` |
-    /// | name | a list of bytes: UTF-8, at most 65 536 |
+    /// | name | a list of at most 65 536 bytes: the name in UTF-8 |
     /// | up, precision | three `f64`, and one `f64` |
     /// | view | six `f64`, optional: eye and target |
-    /// | materials | the number as `u64`; each is a name, and red, green, blue and opacity as `f32` |
-    /// | polygons | a list: the number of corners, and the material, as `u32` |
+    /// | materials | the number of materials as `u64`; for each material its name, a list of bytes; then red, green, blue and opacity as `f32` |
+    /// | polygons | a list: for each polygon the number of its corners, and the number of its material, as `u32` |
     /// | corners | the corners of all polygons: three `f64` each |
     /// | lines | a list: for each polygon its line in the source file, `u64`; or empty |
     /// | texture coordinates | a list: for each corner two `f64`, optional; or empty |

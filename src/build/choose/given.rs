@@ -96,8 +96,8 @@ impl<'a> PieceSet<'a> {
         self.set.faces.plane(plane).normal_f64().normalize()
     }
 
-    /// Returns, for each piece by number, the side of a plane on which the piece lies. Returns `None` if the
-    /// plane's piece or axis does not exist, or its coordinate is NaN or infinite.
+    /// Returns the side of a plane on which each piece lies, in the order of the pieces' numbers. Returns
+    /// `None` if the plane's piece or axis does not exist, or its coordinate is NaN or infinite.
     ///
     /// The sides are exact, except for the tolerance, and the build uses the same sides. Exception: if a
     /// larger polygon of the set is coplanar with a piece within the tolerance, the build may replace the
