@@ -27,8 +27,8 @@ impl BspTree {
     /// # Errors
     ///
     /// If a coordinate is infinite or NaN, if one polygon has more than 2²² corners, if all polygons together
-    /// have 2²⁸ corners or more, if the tree would have more than 2²⁵ fragments, or if memory runs out. The
-    /// error names the polygon that caused it, if any.
+    /// have 2²⁸ corners or more, if the tree would have more than 2²⁵ fragments, or if memory runs out. If a
+    /// polygon caused the error, the error names this polygon.
     pub fn build<P: Polygon>(polygons: impl IntoIterator<Item = P>) -> Result<Self, Error> {
         BuildOptions::DEFAULT.build(polygons)
     }

@@ -168,8 +168,8 @@ impl Default for BuildOptions {
 #[non_exhaustive]
 pub enum Heuristic {
     /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
-    /// 1980). This heuristic compares no planes, and makes up to 14 times as many fragments as a scored
-    /// heuristic.
+    /// 1980). This heuristic compares no planes, and makes up to 14 times as many fragments as heuristics
+    /// that compare planes.
     First,
     /// The plane of a random polygon; the same seed makes the same tree. The expected number of fragments is
     /// O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient binary space

@@ -65,9 +65,9 @@ pub struct Preparation {
     /// rounding moved a corner off the plane of the other corners by more than the tolerance. With a
     /// tolerance of `bent_by`, these polygons would stay whole.
     ///
-    /// A polygon is counted if the distance from the plane is at most 10⁻⁵ of the grid's width, or at most
-    /// the polygon's own [`precision`](crate::Polygon::precision). (The grid is one to two extents wide. A
-    /// precision above 1/256 of this width counts as 1/256.)
+    /// A polygon is counted if the corner's distance from the plane is at most 10⁻⁵ of the grid's width, or
+    /// at most the polygon's own [`precision`](crate::Polygon::precision). (The grid is one to two extents
+    /// wide. A precision above 1/256 of this width counts as 1/256.)
     pub bent: usize,
     /// The largest distance of a bent polygon's corner from the plane of the other corners, a length.
     pub bent_by: f64,

@@ -239,8 +239,8 @@ pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
 /// from 0 to 255. With opacity 1, the colour replaces the pixel's colour; with opacity 0, the pixel does not
 /// change.
 ///
-/// The result is rounded, so two pixels are certainly bit for bit equal only if the same colours are blended
-/// over the same background, in the same order.
+/// The result is rounded. So two pixels are guaranteed to be equal bit for bit only if the same colours are
+/// blended over the same background, in the same order.
 pub fn blend(pixel: &mut [f32; 3], colour: [u8; 3], opacity: f32) {
     for (old, new) in pixel.iter_mut().zip(colour) {
         *old = *old * (1.0 - opacity) + f32::from(new) * opacity;

@@ -247,8 +247,8 @@ impl Rays {
         Self { size, base, above: self.above + start, ..self.clone() }
     }
 
-    /// Makes the rays pass through the backs of faces, so that pictures show only front sides. From the front
-    /// of a face, its corners are counter-clockwise.
+    /// Makes the rays ignore faces that they meet from behind, so that pictures show only the fronts of
+    /// faces. A face's corners are counter-clockwise seen from its front.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
     }

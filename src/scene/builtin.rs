@@ -118,7 +118,8 @@ impl Builtin {
         matches!(self.row().2, Recipe::Seeded(..))
     }
 
-    /// Reads a name with a size, such as `teapot:16`, or a name alone.
+    /// Reads the name of a scene, with a size, as in `teapot:16`, or without. Without a size, the second
+    /// result is `None`.
     ///
     /// ```
     /// use binspace::scene::Builtin;

@@ -15,7 +15,7 @@ const CEILING: [[f64; 3]; 4] =
 const LAMP: [[f64; 3]; 4] =
     [[343.0, 548.8, 227.0], [343.0, 548.8, 332.0], [213.0, 548.8, 332.0], [213.0, 548.8, 227.0]];
 
-/// Returns the Cornell box: 16 quads in millimetres, up is y, open towards −z.
+/// Returns the Cornell box, of 16 quads. The unit is the millimetre, up is y, and the box is open towards −z.
 ///
 /// The Cornell University Program of Computer Graphics published the measurements and the camera position
 /// ("Cornell Box Data"). The room's walls face inwards. The blocks face outwards and have no underside. As in

@@ -65,7 +65,7 @@ const SIDE: f64 = 100.0;
 /// Octaves of noise: the number of cells on a side, and the height that the octave adds.
 const OCTAVES: [(usize, f64); 5] = [(3, 14.0), (7, 6.0), (15, 2.5), (31, 1.0), (63, 0.4)];
 
-/// Returns a hilly terrain of about `triangles` triangles, 100 × 100, up is z.
+/// Returns a hilly terrain of about `triangles` triangles, 100 wide and 100 deep; up is z.
 ///
 /// The terrain is a height field over `side` × `side` squares of two triangles each. `side` is
 /// √(`triangles`/2), rounded, and at least 1. Heights are value noise of five octaves, mostly within ±12 and
@@ -138,8 +138,8 @@ fn height(noise: &[Vec<f64>], u: f64, v: f64) -> f64 {
     sum
 }
 
-/// Returns a unit sphere of about `faces` faces, up is z: quads between parallels and meridians, triangles at
-/// the poles.
+/// Returns a unit sphere of about `faces` faces; up is z. The faces are quads between parallels and
+/// meridians, and triangles at the poles.
 ///
 /// The sphere has `rows` × 2·`rows` faces. `rows` is √(`faces`/2), rounded, and at least 2, which makes an
 /// octahedron. Except for the rounding of the corners, all faces are planar and the body is convex. The
@@ -171,7 +171,8 @@ pub fn sphere(faces: u32) -> Scene {
 /// The side of a building plot, including half the width of the surrounding streets, in metres.
 const PLOT: f64 = 30.0;
 
-/// Returns a city of about `polygons` polygons in metres, up is z: a grid of houses on one ground square.
+/// Returns a city of about `polygons` polygons: a grid of houses on one square of ground. The unit is the
+/// metre; up is z.
 ///
 /// There are `side`² houses. `side` is √((`polygons` − 1)/5), rounded, and at least 1. Houses are
 /// axis-aligned boxes without an underside, 12 to 24 wide and deep, and 6 to 120 high. They do not touch. Low

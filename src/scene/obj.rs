@@ -47,8 +47,8 @@ impl Scene {
     /// appear as [`Material::DEFAULT`](super::Material::DEFAULT).
     ///
     /// Libraries are read from the file's folder and its subfolders. A library name that is absolute or
-    /// contains `..` is not followed, and the report lists the name. (Symbolic links are followed, because
-    /// the folder's owner made them, not the file.) Only regular files are read as libraries.
+    /// contains `..` is not followed, and the report lists the name. (Symbolic links are followed: the owner
+    /// of the folder made them, not the author of the file.) Only regular files are read as libraries.
     ///
     /// The file itself may be a device, or an unnamed pipe such as `/dev/stdin`. A named pipe is an error:
     /// without a writer, reading the pipe would wait forever. A line that is not UTF-8 is read as Latin-1.
@@ -71,7 +71,7 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// As for [`read_obj`](Self::read_obj), except for reading the file.
+    /// As for [`read_obj`](Self::read_obj), except errors of reading the file.
     pub fn from_obj(
         name: &str,
         bytes: &[u8],
@@ -317,7 +317,7 @@ impl ObjStream {
     ///
     /// # Errors
     ///
-    /// If the file can no longer be read, or has other faces than before.
+    /// If the file can no longer be read, or if its faces have changed.
     pub fn read<B>(
         &self,
         mut visit: impl FnMut(&[DVec3], u32) -> ControlFlow<B>,

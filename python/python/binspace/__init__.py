@@ -1,6 +1,6 @@
 """Exact back-to-front orders of polygons from one BSP tree.
 
-Build a `Tree` once. The tree cuts polygons that cross into parts, called fragments. For any viewpoint, the tree returns the
+Build a `Tree` once. The tree cuts crossing polygons into parts, called fragments. For any viewpoint, the tree returns the
 order in which to paint the fragments:
 
 >>> import binspace

@@ -93,8 +93,8 @@ def results(folder, axes):
 
 
 def reason(name, failures):
-    """Returns the reason why a test fails, or None if the reason is unknown. Exceptions of a listed test, and other
-    failures without a known beginning, are unknown."""
+    """Returns the known reason why a test fails. Returns None if the test is not listed, or if one of its failures does not
+    begin with the expected message."""
     why = REASONS.get(name)
     begin = NAMED if why == NAME else PICTURE
     return why if all(failure.startswith(begin) for failure in failures) else None

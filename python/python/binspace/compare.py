@@ -48,8 +48,8 @@ class View:
         return points
 
     def __call__(self, points):
-        """Returns positions in pixels from the top left corner, and depths that are linear in the picture over each plane:
-        z of a parallel view, and -1 / w of a perspective view."""
+        """Returns positions in pixels from the top left corner, and depths. The depth is z in a parallel view, and -1 / w in
+        a perspective view: over each plane, it is a linear function of the position in the picture."""
         points = self.scaled(points)
         homogeneous = np.concatenate([points, np.ones((*points.shape[:-1], 1))], -1) @ self.matrix.T
         w = homogeneous[..., 3]
