@@ -48,8 +48,8 @@ impl Watch {
     }
 }
 
-/// Lets the operations of a map run one after the other. A map has only one callback, so the callback has to
-/// report to the watch of the current operation.
+/// Lets the operations of a visibility map run one after the other. A map has only one callback, which
+/// reports to the watch of the current operation.
 #[derive(Default)]
 pub(crate) struct Turns {
     turn: Mutex<()>,

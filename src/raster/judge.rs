@@ -246,7 +246,7 @@ const MOVED_CORNERS: f64 = 4.0;
 /// The reason for the second case: if two polygons are both within τ of a partition plane, both count as
 /// lying on this plane, and they are painted in input order. With τ = 0 only the first case occurs.
 ///
-/// This rule knows only the polygons. [`verify`](crate::verify::verify()) also uses the partition planes.
+/// This rule uses only the polygons. [`verify`](crate::verify::verify()) also uses the partition planes.
 ///
 /// # Panics
 ///

@@ -11,7 +11,8 @@ use crate::viewpoint::Viewpoint;
 
 /// The rays of a camera through a scene, in integer coordinates on a scene's [grid](crate::Grid).
 ///
-/// Here x and y are the column and the row of a pixel, and all vectors are integers:
+/// In this table, x and y are the column and the row of a pixel. The vectors base, right and down depend on
+/// the camera, and have integer components:
 ///
 /// | camera | the ray through the centre of pixel (x, y) |
 /// |---|---|

@@ -406,7 +406,7 @@ pub struct ObjReport {
     /// The number of `l` lines.
     pub skipped_lines: usize,
     /// The number of malformed `vt` and `vn` lines, plus the number of invalid references from corners to
-    /// such lines. A corner with an invalid reference lacks that attribute.
+    /// such lines. A corner with an invalid reference has no texture coordinates, or no normal.
     pub skipped_attributes: usize,
     /// The number of lines that begin with an unknown word, such as the statements for free-form curves and
     /// surfaces.

@@ -241,7 +241,8 @@ class Tree(_binspace.Tree):
         Parameters
         ----------
         lines : list of arrays of shape (n, 3), or a tuple (flat, offsets)
-            Polylines. A line is divided at each point with NaN.
+            Polylines. In a tuple, line `i` has the rows of `flat` from ``offsets[i]`` to ``offsets[i + 1]``. A line is divided
+            at each point with NaN.
         points : array of shape (n, 3)
             Points. A point with NaN is left out.
         progress : callable, optional
@@ -306,7 +307,7 @@ class Camera(_binspace.Camera):
     Raises
     ------
     ValueError
-        If the matrix determines no camera, or mirrors the picture.
+        If the matrix is not the matrix of a camera, or mirrors the picture.
     """
 
     def __new__(cls, matrix, size):

@@ -102,7 +102,7 @@ def reason(name, failures):
 
 def main(tests):
     """Prints the tests that fail only with exact axes. `tests` is the folder lib/mpl_toolkits/mplot3d/tests of matplotlib's
-    sources, which has the expected pictures."""
+    sources, which contains the expected pictures."""
     with tempfile.TemporaryDirectory() as folder:
         # Copied out of the source tree, because the sources in that tree are not built.
         shutil.copytree(tests, os.path.join(folder, "tests"))
