@@ -69,9 +69,10 @@ impl Turns {
     }
 }
 
-/// Runs `work` in another thread, without the interpreter. With `turns`, waits first until no other operation
-/// of the map runs. The calling thread handles signals, and calls `progress` with the finished and the total
-/// work. An exception in a signal handler or in `progress` cancels the work.
+/// Runs `work` in another thread, without the interpreter. `turns` belongs to a visibility map: if `turns` is
+/// given, `work` begins when no other operation of the map runs. The calling thread handles signals, and
+/// calls `progress` with the finished and the total work. An exception in a signal handler or in `progress`
+/// cancels the work.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,

@@ -204,9 +204,9 @@ pub enum Heuristic {
         candidates: u32,
     },
     /// Free planes, as in a k-d tree (Bentley, “Multidimensional binary search trees used for associative
-    /// searching”, 1975), compared by the cost of [`Auto`](Self::Auto). A binned sweep finds them (Wald, “On
-    /// fast construction of SAH-based bounding volume hierarchies”, 2007). A polygon's plane is used if all
-    /// polygons of the set lie in one plane, or if no free plane separates any polygons.
+    /// searching”, 1975), compared by the cost of [`Auto`](Self::Auto). A binned sweep finds the planes
+    /// (Wald, “On fast construction of SAH-based bounding volume hierarchies”, 2007). A polygon's plane is
+    /// used if all polygons of the set lie in one plane, or if no free plane separates any polygons.
     FreePlanes,
     /// The plane with the lowest cost, among free planes and polygons' planes. This heuristic is the default,
     /// because it makes the fewest fragments on most scenes. The cost is the library's own. Polygons' planes
