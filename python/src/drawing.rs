@@ -261,20 +261,27 @@ impl Visibility {
     }
 }
 
-/// Filled outlines in painting order, with lines and points between them: `Visibility.drawing`,
-/// `Tree.translucent`.
+/// A drawing: filled paths in painting order, with lines and points between the paths. `Visibility.drawing`
+/// and `Tree.translucent` return a drawing.
 ///
-/// Path `i` shows the polygon `polygon[i]`, or only a part of this polygon if `is_clipped[i]` is true. The
-/// path consists of the outlines from `path_offsets[i]` to `path_offsets[i + 1]`, filled together by the
-/// nonzero rule. The corners of outline `o` are the rows of `corners` from `outline_offsets[o]` to
-/// `outline_offsets[o + 1]`, in pixels from the top left corner of the picture. `edges[c]` is the edge of the
-/// polygon that contains the side from corner `c` to the next corner, or -1 if no edge contains this side.
-/// Edge `k` begins at the polygon's corner `k`.
+/// Path `i` shows the polygon with the number `polygon[i]`, or only a part of this polygon if `is_clipped[i]`
+/// is true. The path consists of the outlines from `path_offsets[i]` to `path_offsets[i + 1]`. These outlines
+/// are filled together by the nonzero rule. The corners of outline `o` are the rows of `corners` from
+/// `outline_offsets[o]` to `outline_offsets[o + 1]`, in pixels from the top left corner of the picture.
 ///
-/// `items` lists all paths, lines and points in painting order, in the shape (n, 2). A row consists of 0 and
-/// the number of a path, of 1 and the number of a row of `lines`, or of 2 and the number of a row of
-/// `markers`. Without an overlay, `lines` and `markers` are None. `size` is the width and the height of the
-/// picture in pixels.
+/// `edges[c]` belongs to the side that leads from corner `c` to the next corner of its outline. `edges[c]` is
+/// the number of the polygon's edge that contains this side, or -1 if no edge contains it. A polygon's edge
+/// `k` begins at its corner `k`.
+///
+/// `items` lists all paths, lines and points in painting order, in the shape (n, 2). The first number of a
+/// row is the kind of the item, and the second number is the item's index:
+///
+/// - 0: a path;
+/// - 1: a part of a line, by its index in the arrays of `lines`;
+/// - 2: a point, by its index in the arrays of `markers`.
+///
+/// Without an overlay, `lines` and `markers` are None. `size` is the width and the height of the picture in
+/// pixels.
 #[pyclass(frozen, module = "binspace._binspace")]
 pub(crate) struct Drawing {
     drawing: drawing::Drawing,
@@ -411,11 +418,11 @@ fn offsets(counts: impl Iterator<Item = usize>) -> Vec<u32> {
     std::iter::once(0).chain(ends).collect()
 }
 
-/// The visible polygons: `Visibility.polygons`.
+/// The visible polygons, as returned by `Visibility.polygons`.
 ///
-/// For each visible polygon: its number in `polygon`, its visible `area` in square pixels, and in `point` a
-/// point where the polygon is visible. `point` has the shape (n, 2), in pixels from the top left corner of
-/// the picture.
+/// Each array has an entry for each visible polygon. `polygon` is the polygon's number. `area` is its visible
+/// area in square pixels. `point` is a point in the picture where the polygon is visible, in pixels from the
+/// top left corner, in the shape (n, 2).
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct VisiblePolygons {
     polygon: Array1<u32>,
@@ -423,14 +430,22 @@ pub(crate) struct VisiblePolygons {
     point: Array2<f64>,
 }
 
-/// Parts of edges, or of lines where polygons cross each other: `Visibility.edges`, `Visibility.crossings`.
+/// Parts of edges, as returned by `Visibility.edges`, or of lines where polygons cross each other, as
+/// returned by `Visibility.crossings`.
 ///
-/// `polygon` is the number of a polygon. `edge` is the number of an edge of this polygon, or -1 if the part
-/// lies on no edge. Edge `k` begins at corner `k`. `kind` is 0 for a border, 1 for a silhouette, 2 for a
-/// crease, and 3 for a crossing. `angle` is the angle of a crease in radians; for other kinds it is NaN.
-/// `other` is the second polygon of a crossing; for other kinds it is -1. `ends` are the two ends in pixels
-/// from the top left corner of the picture, in the shape (n, 2, 2). `is_visible` is false for hidden parts.
-/// `layers` is the number of polygons in front, or -1 if these polygons were not counted.
+/// Each array has an entry for each part:
+///
+/// - `polygon`: the number of a polygon.
+/// - `edge`: the number of the polygon's edge that contains the part, or -1 if no edge contains it. Edge `k`
+///   begins at corner `k`.
+/// - `kind`: 0 for a border (an edge that exactly one polygon has, or more than two polygons have), 1 for a
+///   silhouette, 2 for a crease, 3 for a crossing.
+/// - `angle`: the angle of a crease in radians; NaN for other kinds.
+/// - `other`: the number of the second polygon of a crossing; -1 for other kinds.
+/// - `ends`: the two ends of the part in pixels from the top left corner of the picture. The shape is
+///   (n, 2, 2).
+/// - `is_visible`: false if the part is hidden.
+/// - `layers`: the number of polygons in front of the part, or -1 if these polygons were not counted.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct EdgeRuns {
     polygon: Array1<u32>,

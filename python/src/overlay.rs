@@ -21,8 +21,8 @@ pub(crate) struct Overlay {
     numbers: Numbers,
 }
 
-/// The caller's numbers of lines and points. The overlay has other numbers, because a line with NaN is
-/// divided at each NaN.
+/// The caller's numbers of lines and points. The overlay numbers its lines differently, because a line with
+/// NaN becomes several lines.
 #[derive(Default)]
 pub(crate) struct Numbers {
     /// For each line of the overlay: the caller's line number and the number of the first segment.
@@ -99,11 +99,11 @@ impl Overlay {
         self.overlay.len()
     }
 
-    /// Returns the numbers of all fragments and pieces in back-to-front order, the painting order. The
-    /// numbers of pieces follow the numbers of the tree's fragments.
+    /// Returns the numbers of all fragments and pieces in back-to-front order, the painting order. Pieces are
+    /// parts of lines, and points: see `pieces`. If the tree has n fragments, n + k is the number of piece k.
     ///
-    /// Give either `eye`, the point from which the viewer looks, or `direction`, in which the viewer of a
-    /// parallel projection looks. Each is three numbers.
+    /// Give either `eye` or `direction`, as three numbers. `eye` is the point from which the viewer looks.
+    /// `direction` is the direction in which the viewer of a parallel projection looks.
     #[pyo3(signature = (*, eye=None, direction=None, front_to_back=false))]
     fn order(
         &self,
@@ -182,11 +182,12 @@ impl Overlay {
     }
 }
 
-/// Pieces of lines, and points: `Overlay.pieces`.
+/// The pieces of an overlay, as returned by `Overlay.pieces`. A piece is a part of a line, or a point.
 ///
-/// `number` is the number of a line or a point in the input. `segment` is the number of the segment within
-/// its line, or -1 for a point. `ends` are the two ends of the piece in space, in the shape (n, 2, 3).
-/// `shares` are the places of these ends on the segment, from 0 to 1.
+/// Each array has an entry for each piece. `number` is the number of a line or a point in the input.
+/// `segment` is the number of the segment that contains the piece, counted within its line, or -1 for a
+/// point. `ends` are the two ends of the piece in space, in the shape (n, 2, 3). `shares` are the places of
+/// these ends on the segment: 0 at its start, 1 at its end.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Pieces {
     number: Array1<u32>,
@@ -195,12 +196,13 @@ pub(crate) struct Pieces {
     shares: Array2<f64>,
 }
 
-/// Parts of lines in a picture: `Visibility.lines`, `Drawing.lines`.
+/// Parts of lines in a picture, as returned by `Visibility.lines` and `Drawing.lines`.
 ///
-/// Each part is entirely visible or entirely hidden. `line` is the number of a line, and `segment` the number
-/// of the segment within this line. `ends` are the two ends of the part in pixels from the top left corner of
-/// the picture, in the shape (n, 2, 2). `is_visible` is false for hidden parts. `layers` is the number of
-/// polygons in front, or -1 if these polygons were not counted.
+/// Each array has an entry for each part. A part is entirely visible or entirely hidden. `line` is the number
+/// of the part's line, and `segment` is the number of the part's segment within this line. `ends` are the two
+/// ends of the part in pixels from the top left corner of the picture, in the shape (n, 2, 2). `is_visible`
+/// is false if the part is hidden. `layers` is the number of polygons in front of the part, or -1 if these
+/// polygons were not counted.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct LineRuns {
     line: Array1<u32>,
@@ -210,10 +212,11 @@ pub(crate) struct LineRuns {
     layers: Array1<i64>,
 }
 
-/// Points in a picture: `Visibility.markers`, `Drawing.markers`.
+/// Points in a picture, as returned by `Visibility.markers` and `Drawing.markers`.
 ///
-/// `point` is the number of the point. `at` is the position of the point in pixels from the top left corner
-/// of the picture, in the shape (n, 2). `is_visible` is false if a polygon hides the point.
+/// Each array has an entry for each point. `point` is the point's number in the input. `at` is the position
+/// of the point in pixels from the top left corner of the picture, in the shape (n, 2). `is_visible` is false
+/// if a polygon hides the point.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Markers {
     point: Array1<u32>,

@@ -48,8 +48,8 @@ impl Watch {
     }
 }
 
-/// Lets the operations of a map run one after the other. A map has only one callback, so the callback has to
-/// report to the watch of the current operation.
+/// Lets the operations of a visibility map run one after the other. A map has only one callback, which
+/// reports to the watch of the current operation.
 #[derive(Default)]
 pub(crate) struct Turns {
     turn: Mutex<()>,
@@ -69,9 +69,10 @@ impl Turns {
     }
 }
 
-/// Runs `work` in another thread, without the interpreter. With `turns`, waits first until no other operation
-/// of the map runs. The calling thread handles signals, and calls `progress` with the finished and the total
-/// work. An exception in a signal handler or in `progress` cancels the work.
+/// Runs `work` in another thread, without the interpreter. `turns` belongs to a visibility map: if `turns` is
+/// given, `work` begins when no other operation of the map runs. The calling thread handles signals, and
+/// calls `progress` with the finished and the total work. An exception in a signal handler or in `progress`
+/// cancels the work.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
@@ -113,8 +114,8 @@ pub(crate) fn run<T: Send>(
     })
 }
 
-/// The thread pool of this process. A forked process gets a new pool: its parent's threads do not exist in
-/// it, and it would wait for these threads forever.
+/// The thread pool of this process. A forked process gets a new pool, because the threads of its parent do
+/// not exist in the forked process, which would wait for them forever.
 fn pool() -> PyResult<Arc<ThreadPool>> {
     static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
     let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);

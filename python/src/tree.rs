@@ -116,8 +116,8 @@ impl Tree {
 
     /// Returns the numbers of all fragments in back-to-front order, the painting order. O(n).
     ///
-    /// Give either `eye`, the point from which the viewer looks, or `direction`, in which the viewer of a
-    /// parallel projection looks. Each is three numbers.
+    /// Give either `eye` or `direction`, as three numbers. `eye` is the point from which the viewer looks.
+    /// `direction` is the direction in which the viewer of a parallel projection looks.
     #[pyo3(signature = (*, eye=None, direction=None, front_to_back=false))]
     fn order(
         &self,
@@ -150,8 +150,8 @@ impl Tree {
         })
     }
 
-    /// Returns the hits of rays that start at the points `from`. `others` are the ends of the rays if
-    /// `are_ends` is true; otherwise they are the directions of the rays.
+    /// Returns the hits of rays that start at the points `from`. If `are_ends` is true, `others` are the ends
+    /// of the rays; otherwise, `others` are the directions of the rays.
     fn _hits(
         &self,
         py: Python<'_>,
@@ -221,13 +221,15 @@ struct FoundHits {
     facing: Vec<i8>,
 }
 
-/// All fragments of a tree: `Tree.fragments`.
+/// All fragments of a tree, as returned by `Tree.fragments`.
 ///
-/// Fragment `i` is a part of the polygon `polygon[i]`. Its vertices are the rows of `points` from
-/// `offsets[i]` to `offsets[i + 1]`. `edges[v]` is the edge of the polygon that contains the side from vertex
-/// `v` to the next vertex, or -1 if this side is a cut. Edge `k` begins at corner `k`.
+/// A fragment is a convex part of a polygon. Fragment `i` is a part of polygon number `polygon[i]`. The
+/// vertices of fragment `i` are the rows of `points` from `offsets[i]` to `offsets[i + 1]`. `edges[v]`
+/// belongs to the side that leads from vertex `v` to the next vertex of its fragment. `edges[v]` is the
+/// number of the polygon's edge that contains this side, or -1 if the side is a cut. A polygon's edge `k`
+/// begins at its corner `k`.
 ///
-/// Vertex `v` is a weighted sum of corners of the polygon. The entries from `weight_offsets[v]` to
+/// Vertex `v` is a weighted sum of corners of its polygon. The entries from `weight_offsets[v]` to
 /// `weight_offsets[v + 1]` of `weight_corners` are the numbers of these corners, and the same entries of
 /// `weights` are the weights of the corners.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
@@ -241,13 +243,13 @@ pub(crate) struct Fragments {
     weights: Array1<f64>,
 }
 
-/// The hits of rays: `Tree.hits`.
+/// The hits of rays, as returned by `Tree.hits`.
 ///
 /// The hits of ray `i` are the entries from `offsets[i]` to `offsets[i + 1]` of the other arrays, nearest
 /// first. `polygon` is the number of the polygon that is hit. `parameter` is the place of the hit along the
-/// ray: 0 at the start of the ray, 1 at the start plus the direction, or at the end of a segment. `points`
-/// are the hit points, in the shape (n, 3). `facing` is 1 if the front is hit, -1 if the back is hit, and 0
-/// if the ray lies in the polygon's plane.
+/// ray: 0 at the start of the ray, and 1 at the end of a segment or at start + direction. `points` are the
+/// hit points, in the shape (n, 3). `facing` is 1 if the ray hits the front, -1 if it hits the back, and 0 if
+/// it lies in the polygon's plane.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Hits {
     offsets: Array1<u64>,

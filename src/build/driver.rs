@@ -27,8 +27,8 @@ impl BspTree {
     /// # Errors
     ///
     /// If a coordinate is infinite or NaN, if one polygon has more than 2²² corners, if all polygons together
-    /// have 2²⁸ corners or more, if the tree would have more than 2²⁵ fragments, or if memory runs out. The
-    /// error names the polygon that caused it, if any.
+    /// have 2²⁸ corners or more, if the tree would have more than 2²⁵ fragments, or if memory runs out. If a
+    /// polygon caused the error, the error names this polygon.
     pub fn build<P: Polygon>(polygons: impl IntoIterator<Item = P>) -> Result<Self, Error> {
         BuildOptions::DEFAULT.build(polygons)
     }
@@ -53,10 +53,10 @@ impl BuildOptions {
     /// may call the callback, but never two threads at once: while one thread calls it, the other threads
     /// continue their work. So the callback may be slow, and may use the same thread pool.
     ///
-    /// If the callback returns [`ControlFlow::Break`], the build is cancelled: each thread stops after its
-    /// current pass over a set of pieces. A pass takes milliseconds, or tenths of a second in sets of some
-    /// 100 000 pieces. When all sets are divided, the tree is laid out in memory; this takes about as long as
-    /// a pass and cannot be cancelled.
+    /// If the callback returns [`ControlFlow::Break`], the build is cancelled: the build then ends within
+    /// milliseconds, or within tenths of a second for scenes of some 100 000 polygons. At the end of a build,
+    /// the finished tree is laid out in memory. This step takes about as long as a cancellation, and cannot
+    /// be cancelled.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -201,12 +201,13 @@ pub(super) fn divide_all(
 }
 
 impl BspTree {
-    /// Adds polygons permanently, with the default options. The new polygons are numbered after the tree's
-    /// polygons.
+    /// Adds polygons permanently, with the default options. If the tree has `n` polygons, the new polygons
+    /// get the numbers `n`, `n` + 1 and so on.
     ///
-    /// Builds the tree again from the old and the new polygons, with the same grid and tolerance. The numbers
-    /// of the fragments change, and [overlays](crate::overlay::Overlay) and [meshes](crate::mesh::Mesh) have
-    /// to be made again. Takes as long as a build. For moving polygons, use an overlay instead.
+    /// The tree is built again from the old and the new polygons, with the same grid and tolerance. This
+    /// takes as long as a build. The numbers of the fragments change, so [overlays](crate::overlay::Overlay)
+    /// and [meshes](crate::mesh::Mesh) of the old tree must be made again. For moving polygons, use an
+    /// overlay instead.
     ///
     /// ```
     /// use binspace::{BspTree, BuildOptions, glam::DVec3};
@@ -222,9 +223,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// As for [`build`](Self::build), and if a polygon reaches beyond the grid; [`BuildOptions::with_bounds`]
-    /// makes the grid larger. The error names the polygon by its index among the new polygons, and the tree
-    /// is not changed.
+    /// As for [`build`](Self::build), and if a new polygon reaches beyond the tree's
+    /// [grid](crate::BspTree::grid). For a larger grid, build the tree with [`BuildOptions::with_bounds`].
+    /// The error names the polygon by its index among the new polygons, and the tree is not changed.
     pub fn extend<P: Polygon>(
         &mut self,
         polygons: impl IntoIterator<Item = P>,
@@ -284,9 +285,10 @@ impl BuildOptions {
     /// Divides a scene into cells, each with about the same number of samples. Samples are points, such as
     /// one corner of every polygon, or of some polygons. Takes O(n log cells) time for n samples.
     ///
-    /// Each plane contains a sample, and divides the samples on the axis of their largest extent. A part of
-    /// the scene without two different samples is halved across its longest side. The cells do not depend on
-    /// the order of the samples. Some cells may be empty. 0 cells count as 1.
+    /// The cells are the leaves of a k-d tree. Each plane goes through one of the samples in its box, and is
+    /// perpendicular to the axis along which these samples extend furthest. If a box has no two different
+    /// samples, the plane halves the longest side of the box. The cells do not depend on the order of the
+    /// samples. Some cells may be empty. 0 `cells` count as 1.
     ///
     /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, it defines the
     /// grid to which the corners of polygons are rounded. The tolerance of these options applies to all
@@ -357,11 +359,11 @@ impl BuildOptions {
 }
 
 impl Partition {
-    /// Returns the counts that the [preparations](BspTree::preparation) of the cells' trees contain, but
-    /// counts each polygon once, however many cells it reaches. The counts of several lists of polygons add
-    /// up to the totals of a scene. [`dropped`](crate::Preparation::dropped) counts only polygons without
-    /// area. Takes as long as the preparation in [`build_cell`](BuildOptions::build_cell), and cannot be
-    /// cancelled.
+    /// Counts the polygons that builds of cells drop, triangulate and flatten, like [`BspTree::preparation`].
+    /// Each polygon is counted once, however many cells it reaches. [`dropped`](crate::Preparation::dropped)
+    /// counts only polygons without area, not polygons outside a cell. If a scene does not fit into memory,
+    /// call this method for one list of polygons at a time, and add up the counts. Takes as long as the
+    /// preparation in [`build_cell`](BuildOptions::build_cell), and cannot be cancelled.
     ///
     /// # Errors
     ///
@@ -374,8 +376,8 @@ impl Partition {
         prepared_in_cell(&mut faces, polygons, usize::MAX, &Watch::default())
     }
 
-    /// Returns whether a tree can belong to this cell: whether the tree has the partition's grid and
-    /// tolerance, and is clipped to the cell. The polygons are not compared.
+    /// Returns whether a tree can be the tree of this cell: it has the partition's grid and tolerance, and
+    /// its polygons are clipped to the cell. The polygons themselves are not compared.
     ///
     /// # Panics
     ///

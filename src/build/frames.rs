@@ -22,13 +22,16 @@ use crate::tree::parts::{Parts, RawNode};
 /// Builds a tree for every frame, in reused memory.
 ///
 /// Use a `FrameBuilder` if polygons move every frame and each tree is drawn once or twice, as in a compositor
-/// of layers. The trees are as exact as the trees of [`BspTree::build`], but are made for one view. Planes of
-/// small sets are chosen in less time, so the fragments may differ. The rounded positions of cut vertices are
-/// stored, not computed at each access. The layout that makes
-/// [`back_to_front_into`](BspTree::back_to_front_into) fast is left out, so an order of such a tree, or of a
-/// clone of the tree, takes a few times longer. Once the builder's lists have grown to the size of a scene, a
-/// frame of few layers allocates no memory. (Queries and culling allocate bounding boxes; see
-/// [`BspTree::bounds`].) The lists do not shrink; to free their memory, make another builder.
+/// of layers. The trees are as exact as the trees of [`BspTree::build`], but are made for one view:
+///
+/// - The builder spends less time on the choice of planes, so the fragments may differ.
+/// - The rounded positions of cut vertices are stored, not computed at each access.
+/// - The memory layout that makes [`back_to_front_into`](BspTree::back_to_front_into) fast is left out. So an
+///   order of such a tree, or of a clone of the tree, takes a few times longer.
+///
+/// The builder keeps its buffers from frame to frame. Once the buffers are large enough, building a frame of
+/// few polygons allocates no memory. (Queries and culling allocate bounding boxes; see [`BspTree::bounds`].)
+/// The buffers do not shrink; to free their memory, make another builder.
 ///
 /// ```
 /// use binspace::{BuildOptions, FrameBuilder, Viewpoint, glam::DVec3};

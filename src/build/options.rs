@@ -28,21 +28,21 @@ use crate::faces::Tolerance;
 pub struct BuildOptions {
     /// The heuristic that chooses partition planes. Default: [`Heuristic::Auto`].
     pub heuristic: Heuristic,
-    /// The coplanar tolerance: a polygon that reaches no further than this from a plane counts as lying on
-    /// the plane. Default: [`Tolerance::Default`], which depends on the precision of the polygons.
+    /// The coplanar tolerance: a polygon counts as lying on a plane if no corner is further from the plane
+    /// than this distance. Default: [`Tolerance::Default`], which depends on the precision of the polygons.
     pub tolerance: Tolerance,
     /// The largest number of fragments of a tree, and of input polygons. More fragments or polygons are an
-    /// error. Polygons are counted as they are read, before the tree is built. After 2²⁰ polygons, reading
-    /// also ends if the iterator's size hint exceeds the limit. Default: 2²⁵, or 33 554 432 fragments in
-    /// about 5 GB. A value above 2²⁹ − 1 counts as 2²⁹ − 1. The number of polygons also has a fixed limit of
-    /// 2²⁸.
+    /// error. Polygons are counted while they are read, before the tree is built. Default: 2²⁵, or 33 554 432
+    /// fragments in about 5 GB. A value above 2²⁹ − 1 counts as 2²⁹ − 1. The number of polygons also has a
+    /// fixed limit of 2²⁸.
     pub max_fragments: usize,
     /// The largest number of nodes on a path from the root. A longer path is an error. Default: unlimited; no
     /// code recurses over the tree, so a deep tree cannot overflow the stack.
     pub max_depth: usize,
-    /// Two opposite corners of a box that the grid of exact coordinates must contain in addition to the
-    /// polygons, such as the box of all contents of an [`Overlay`](crate::overlay::Overlay). The scene's
-    /// extent includes this box, so the box may raise a default or relative tolerance. Default: no box.
+    /// Two opposite corners of a box that the [grid](crate::Grid) of exact coordinates must contain, in
+    /// addition to the polygons. For example: a box around everything that is later added in an
+    /// [`Overlay`](crate::overlay::Overlay). The scene's extent includes this box, so the box may increase a
+    /// default or relative tolerance. Default: no box.
     pub bounds: Option<[DVec3; 2]>,
     pub(super) chooser: Option<GivenChooser>,
 }
@@ -100,12 +100,14 @@ impl BuildOptions {
         self
     }
 
-    /// Sets your own heuristic: a function that chooses the plane that divides a set of pieces.
+    /// Sets your own heuristic: a function that chooses the plane that divides a [set of
+    /// pieces](crate::choose::PieceSet). A piece is a part of a polygon.
     ///
     /// The function is called once for each set of two or more pieces. If it returns `None` or a plane that
     /// does not divide the set, [`heuristic`](Self::heuristic) chooses instead. A plane does not divide the
-    /// set if it leaves all pieces on one side, or names a piece, axis or coordinate that does not exist.
-    /// With any function the tree is exact, its build ends, and budgets and cancellation work.
+    /// set if all pieces are on one side of the plane. A plane with an invalid piece number, axis or
+    /// coordinate counts as `None`. Whatever the function returns, the tree is exact, its build ends, and
+    /// budgets and cancellation work.
     ///
     /// Several threads call the function at the same time, in any order. If its result depends only on the
     /// set, the tree is the same with any number of threads. If the function panics, so does the build.
@@ -153,20 +155,21 @@ impl Default for BuildOptions {
 /// Naylor, “On visible surface generation by a priori tree structures”, 1980), and *free planes*,
 /// which here are perpendicular to an axis and go through a corner of a polygon.
 ///
-/// No heuristic lets the plane of one polygon cut another polygon that lies in the same plane within the
-/// coplanar tolerance: the plane of the larger polygon divides the set instead. Free planes may cut both
+/// The plane of a small polygon is less certain than the plane of a large polygon, because corners are
+/// rounded. So if the plane of a polygon would cut a larger polygon that is coplanar with it within the
+/// tolerance, every heuristic uses the plane of the larger polygon instead. Free planes may cut both
 /// polygons.
 ///
 /// Your own heuristic has priority: [`BuildOptions::with_chooser`].
 ///
-/// Every heuristic is deterministic. A heuristic that compares the planes of all polygons of a set tries at
-/// most 96 planes, spread evenly over the set.
+/// Every heuristic is deterministic. A heuristic that compares polygons' planes tries at most 96 planes for a
+/// set. In larger sets, the tried polygons are spread evenly over the set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Heuristic {
     /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
-    /// 1980). This heuristic compares no planes, and makes up to 14 times as many fragments as a scored
-    /// heuristic.
+    /// 1980). This heuristic compares no planes, and makes up to 14 times as many fragments as heuristics
+    /// that compare planes.
     First,
     /// The plane of a random polygon; the same seed makes the same tree. The expected number of fragments is
     /// O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient binary space
@@ -180,11 +183,11 @@ pub enum Heuristic {
     FewestSplits,
     /// Among the polygons' planes, the plane with the smallest difference between the numbers of polygons in
     /// front and behind. Naylor (“Constructing good partitioning trees”, 1993) explains why balance alone
-    /// makes no good tree.
+    /// does not make a good tree.
     Balanced,
-    /// Among the polygons' planes, the plane with the lowest weighted sum of splits and imbalance, minus a
-    /// bonus: the trade-off of Thibault and Naylor (“Set operations on polyhedra using binary space
-    /// partitioning trees”, 1987).
+    /// Among the polygons' planes, the plane with the lowest cost. The cost is a weighted sum of splits and
+    /// imbalance, less a bonus for planes perpendicular to an axis. The weighted sum is from Thibault and
+    /// Naylor (“Set operations on polyhedra using binary space partitioning trees”, 1987).
     Weighted {
         /// Cost of each polygon that the plane cuts. Default 8.
         splits: f64,
@@ -201,13 +204,14 @@ pub enum Heuristic {
         candidates: u32,
     },
     /// Free planes, as in a k-d tree (Bentley, “Multidimensional binary search trees used for associative
-    /// searching”, 1975), compared by the cost of [`Auto`](Self::Auto). A binned sweep finds them (Wald, “On
-    /// fast construction of SAH-based bounding volume hierarchies”, 2007). A polygon's plane is used if all
-    /// polygons of the set lie in one plane, or if no free plane separates any polygons.
+    /// searching”, 1975), compared by the cost of [`Auto`](Self::Auto). A binned sweep finds the planes
+    /// (Wald, “On fast construction of SAH-based bounding volume hierarchies”, 2007). A polygon's plane is
+    /// used if all polygons of the set lie in one plane, or if no free plane separates any polygons.
     FreePlanes,
-    /// The plane of either kind with the lowest cost. The default, because this choice makes the fewest
-    /// fragments on most scenes. The cost is the library's own. Polygons' planes are compared by successive
-    /// halving (Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+    /// The plane with the lowest cost, among free planes and polygons' planes. This heuristic is the default,
+    /// because it makes the fewest fragments on most scenes. The cost is the library's own. Polygons' planes
+    /// are compared by successive halving (Karnin, Koren and Somekh, “Almost optimal exploration in
+    /// multi-armed bandits”, 2013).
     ///
     /// The candidates are free planes and the planes of a sample of the polygons. The cost of a plane
     /// estimates the remaining work: n^1.25 for n polygons in front, plus n^1.25 for n polygons behind. A
@@ -215,9 +219,10 @@ pub enum Heuristic {
     /// a wall or floor that is not used early is cut repeatedly.
     ///
     /// A free plane that cuts nothing has priority; otherwise the plane with the lowest cost is used. In sets
-    /// of up to 255 polygons, a plane without cuts is preferred to any plane with cuts; below 64, no free
-    /// plane that cuts is tried. If only planes at the boundary of a set cut nothing, as in a convex body, a
-    /// single search separates its outer polygons one after the other.
+    /// of up to 255 polygons, any plane without cuts has priority over any plane with cuts. In sets of fewer
+    /// than 64 polygons, no free plane that cuts is tried. If every plane without cuts separates a single
+    /// polygon at the boundary of the set, as in a convex body, one search separates all these polygons one
+    /// after the other.
     ///
     /// A [`FrameBuilder`](crate::FrameBuilder) tries polygons' planes first, which takes less time: four
     /// planes in sets of up to 255 polygons. It accepts a plane that cuts nothing and divides the set evenly,

@@ -17,13 +17,13 @@ use super::{Lattice, PlaneId};
 use crate::error::{Error, Kind};
 use crate::memory::{collect, push, reserve};
 
-/// The faces of a scene in lattice coordinates. Each face is convex and planar, and belongs to one input
-/// polygon.
+/// The faces of a scene: convex planar polygons, with corners on the scene's [grid](crate::Grid). Each face
+/// belongs to one input polygon.
 ///
-/// A polygon that is convex, has at most 32 768 corners, and lies within the tolerance of one plane becomes
-/// one face; any other polygon becomes triangles. A corner that does not lie exactly on the plane of its
-/// face's reference triangle is *defined* to lie on it, moved along the axis in which the plane is least
-/// steep. The lattice point nearest to the moved corner is stored.
+/// An input polygon becomes one face if it is convex, has at most 32 768 corners, and lies in one plane
+/// within the tolerance. Any other polygon becomes triangles. Three corners of a face, far apart, define the
+/// face's plane. Every other corner is moved onto this plane, parallel to an axis: the axis that is most
+/// nearly perpendicular to the plane. The grid point nearest to the moved corner is stored.
 #[derive(Clone, Default)]
 pub struct Faces {
     pub(crate) lattice: Lattice,

@@ -38,31 +38,36 @@ const ARM: f64 = LATTICE_LIMIT / 2.0;
 pub struct Preparation {
     /// The number of input polygons.
     pub polygons: usize,
-    /// The number of polygons without area, which become no face: polygons with fewer than three different
-    /// corners, or with collinear corners. The count is exact for the corners rounded to the lattice. Corners
-    /// that are collinear as decimal numbers may not be collinear as `f64`. In the tree of a cell, polygons
-    /// outside the cell count too.
+    /// The number of polygons without area, which have no fragments: polygons with fewer than three different
+    /// corners, or with collinear corners. The count is exact after corners are rounded to the
+    /// [grid](crate::Grid). Corners that are collinear as decimal numbers may not be collinear as `f64`. In
+    /// the tree of a cell of a [partition](crate::partition), polygons outside the cell are counted too.
     pub dropped: usize,
     /// The number of polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
-    /// The number of triangulated polygons that cross themselves, or whose winding number is not the same
-    /// everywhere inside. The count is exact, in a projection along the main axis of the polygon's vector
-    /// area. If the polygon's edges meet only at corners, the triangles cover every point with a nonzero
-    /// winding number. Otherwise each pair of crossing edges is first replaced by two edges that do not
-    /// cross, between the same four ends. Of the two possible replacements, the replacement that changes less
-    /// area is used. Then the triangles cover the inside by the even-odd rule. If the replacements take too
-    /// long, or leave nothing, the triangles fan out from the first corner.
+    /// The number of triangulated polygons that are self-intersecting, or whose winding number differs
+    /// between inner points. The count is exact in the polygon's projection along the largest component of
+    /// its area vector. The triangles of such a polygon depend on its edges:
+    ///
+    /// - If edges meet only at corners, the triangles cover every point with a nonzero winding number.
+    /// - If edges cross, each pair of crossing edges is replaced by two edges between the same four ends that
+    ///   do not cross, so that as little area as possible changes. Then the triangles cover the inside by the
+    ///   even-odd rule.
+    /// - If these replacements take too long, or leave no area, the triangles are a fan from the first
+    ///   corner.
     pub crossing: usize,
     /// The number of polygons with a corner off the plane of the other corners, but within the tolerance.
     /// These polygons stay whole, and their corners are treated as lying on the plane.
     pub flattened: usize,
     /// The largest distance of a flattened polygon's corner from the plane of the other corners, a length.
     pub flattened_by: f64,
-    /// The number of triangulated polygons that are probably planar, but bent by rounding. Such polygons are
-    /// convex. A corner is off the plane of the other corners by more than the tolerance, but by no more than
-    /// a limit. The limit is the larger of 10⁻⁵ of the grid's width (one to two extents) and the polygon's
-    /// own [`precision`](crate::Polygon::precision), and at most 1/256 of the width. With a tolerance of
-    /// `bent_by` these polygons would stay whole.
+    /// The number of convex polygons that were probably meant to be planar, but became triangles because
+    /// rounding moved a corner off the plane of the other corners by more than the tolerance. With a
+    /// tolerance of `bent_by`, these polygons would stay whole.
+    ///
+    /// A polygon is counted if the corner's distance from the plane is at most 10⁻⁵ of the grid's width, or
+    /// at most the polygon's own [`precision`](crate::Polygon::precision). (The grid is one to two extents
+    /// wide. A precision above 1/256 of this width counts as 1/256.)
     pub bent: usize,
     /// The largest distance of a bent polygon's corner from the plane of the other corners, a length.
     pub bent_by: f64,
@@ -91,15 +96,14 @@ impl Preparation {
 }
 
 impl Faces {
-    /// Prepares polygons: converts them to convex planar faces.
+    /// Prepares polygons for a build: converts the polygons to convex planar faces.
     ///
     /// `tolerance` is a [`Tolerance`], a length, or `None` for the default.
     ///
     /// # Errors
     ///
-    /// If a coordinate is not finite, the tolerance is negative or NaN, a polygon has more than
-    /// 2²² corners, there are more than 2²⁸ polygons or corners in total, or memory
-    /// runs out.
+    /// If a coordinate is not finite, if the tolerance is negative or NaN, if a polygon has more than 2²²
+    /// corners, if there are more than 2²⁸ polygons or corners in total, or if memory runs out.
     pub fn new<P: Polygon>(
         polygons: impl IntoIterator<Item = P>,
         tolerance: impl Into<Tolerance>,

@@ -20,20 +20,21 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// small: polygons bent by coarse rounding are triangulated.
 const LARGEST_ROUNDING: f64 = 1e-5;
 
-/// The coplanar tolerance: a polygon that reaches no further than this from a plane counts as lying on that
-/// plane.
+/// The coplanar tolerance, a distance: a polygon counts as lying on a plane if no corner is further from the
+/// plane than the tolerance.
 ///
-/// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an error. A
-/// tolerance that is too large, infinity included, is reduced to a fixed share of the extent between 1/256
-/// and 1/128. [`BspTree`](crate::BspTree#which-tolerance) helps to choose a tolerance.
+/// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an error. The
+/// largest tolerance is between 1/256 and 1/128 of the extent, depending on the scene; larger tolerances,
+/// infinity included, are reduced to it. [`BspTree`](crate::BspTree#which-tolerance) helps to choose a
+/// tolerance.
 ///
 /// The extent is the longest side of the bounding box of all corners. One stray vertex makes the extent
 /// larger. If stray vertices can occur, set a length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Tolerance {
-    /// The largest [`precision`](crate::Polygon::precision) of the polygons, but between 10⁻⁹ and 10⁻⁵ of
-    /// the extent:
+    /// The largest [`precision`](crate::Polygon::precision) of the polygons, clamped to between 10⁻⁹ and 10⁻⁵
+    /// of the extent. A *step* of a coordinate is the distance to the next larger number of its type.
     ///
     /// | input | default |
     /// |---|---|
@@ -42,10 +43,10 @@ pub enum Tolerance {
     /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, wherever the scene lies |
     ///
     /// Far from the origin, `f32` and `f64` have coarser steps. There the default is four steps of the
-    /// largest coordinate, however large a share of the extent that length is. For `f64`, the default exceeds
+    /// largest coordinate, even if this length exceeds 10⁻⁵ of the extent. For `f64`, the default exceeds
     /// 10⁻⁹ of the extent if the scene is more than a million extents away from the origin. For example, the
-    /// default is 9·10⁻⁷ for a cube of side 1 at 10⁹. (Files are treated as `f32` if nearly all their numbers
-    /// are `f32`, written with more digits than an `f32` has.)
+    /// default is 9·10⁻⁷ for a cube of side 1 at 10⁹. (An OBJ file is treated as `f32` if nearly all its
+    /// numbers are `f32`, written with more digits than an `f32` has.)
     #[default]
     Default,
     /// A length, in the polygons' unit.

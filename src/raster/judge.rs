@@ -33,11 +33,12 @@ impl DepthImage {
         self.image
     }
 
-    /// Returns the depth of the face in each pixel, rounded, in world units, row by row from the top left;
-    /// infinite in pixels without a face.
+    /// Returns the depth of the nearest face in each pixel, row by row from the top left, in the polygons'
+    /// unit and rounded. In pixels without a face, the depth is infinite.
     ///
-    /// Depth is measured along the direction in which the camera looks: from the eye, or, for parallel rays,
-    /// from the plane through the middle of the scene. For parallel rays, depths may be negative.
+    /// Depth is measured along the direction in which the camera looks. It is measured from the eye, or, in a
+    /// parallel view, from the plane through the middle of the scene. So depths may be negative in parallel
+    /// views.
     pub fn depths(&self) -> impl Iterator<Item = f64> {
         self.image.faces.iter().zip(&self.nearness).map(|(&face, &nearness)| {
             if face == NONE {
@@ -78,8 +79,8 @@ impl Nearness {
     }
 }
 
-/// Returns the nearest face in each pixel. Of faces at exactly the same distance, the face of the later
-/// polygon wins, as if painted over the earlier face.
+/// Returns the nearest face in each pixel. If faces are at exactly the same distance, the face of the later
+/// polygon counts as nearest, as if it were painted over the others.
 ///
 /// # Panics
 ///
@@ -208,8 +209,8 @@ pub enum Verdict {
 pub struct Comparison {
     /// The number of pixels in which the true picture shows a polygon.
     pub covered: usize,
-    /// The number of pixels that do not show the nearest polygon, but where the tolerance allows either
-    /// order.
+    /// The number of pixels that show another polygon than the nearest, where the tolerance allows either
+    /// order of the two.
     pub contested: usize,
     /// The number of pixels that show a polygon that another polygon hides.
     pub wrong_order: usize,
@@ -235,15 +236,17 @@ const MOVED_CORNERS: f64 = 4.0;
 
 /// Compares a painted picture with a true picture, both made with the same rays.
 ///
-/// Polygons are compared, not faces: two faces of one polygon are equal. A pixel is *contested* if, along its
-/// ray, the painted face and the true face are at exactly the same distance, or the ray meets *each* face
-/// within 2 τ of the plane of the other, where τ is the tolerance. The reason: two polygons that are each
-/// within τ of a partition plane may both count as part of that plane, and then they are painted in input
-/// order. With τ = 0 only ties are contested.
+/// Polygons are compared, not faces: two faces of one polygon are equal. Let τ be the coplanar tolerance. A
+/// pixel that shows the wrong polygon is *contested*, not wrong, in one of these cases:
 ///
-/// So a ray that is almost parallel to one of the two planes does not suffice: the other polygon, which the
-/// ray meets at a larger angle, must be within 2 τ as well. This rule uses the polygons, not the partition
-/// planes; [`verify`](crate::verify::verify()) uses the polygons and the partition planes.
+/// - the pixel's ray meets the painted face and the true face at exactly the same distance;
+/// - the ray meets the painted face within 2 τ of the true face's plane, and the true face within 2 τ of the
+///   painted face's plane.
+///
+/// The reason for the second case: if two polygons are both within τ of a partition plane, both count as
+/// lying on this plane, and they are painted in input order. With τ = 0 only the first case occurs.
+///
+/// This rule uses only the polygons. [`verify`](crate::verify::verify()) also uses the partition planes.
 ///
 /// # Panics
 ///

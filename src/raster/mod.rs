@@ -1,16 +1,20 @@
 //! Pictures of faces, exact in every pixel, and their comparison.
 //!
-//! A camera becomes [`Rays`]: one integer ray per pixel. Signs of integer polynomials decide whether a ray
-//! meets a piece of a face, and which of two faces it meets first. So a painter and a depth buffer that are
-//! both right make the *same* picture; if the pictures differ, one of the two programs is wrong. This module
-//! judges orders, so it does not use how an order was computed.
+//! A *face* is an input polygon that is convex and planar, or a triangle of another input polygon; see
+//! [`Faces`]. A camera becomes [`Rays`]: one integer ray per pixel. Exact integer arithmetic decides whether
+//! a ray meets a part of a face, and which of two faces it meets first. So a correct painter and a correct
+//! depth buffer make the *same* picture; if the pictures differ, one of the two is wrong. This module judges
+//! orders, so it ignores how an order was computed.
 //!
-//! This module shares no arithmetic with the builder. Planes are computed from their defining corners in
-//! separate integers, so a mistake in the builder's arithmetic shows as wrong pixels and is not repeated
-//! here. The module and the builder share only the input: the faces' corners on the lattice; the corners that
-//! define a face's plane, and the axis along which the other corners are moved to that plane; the eye on the
-//! lattice; and the labels that name the lines of a piece. Tests of the preparation compare this input with
-//! the given polygons.
+//! This module shares no arithmetic with the builder. Planes are computed from the faces' corners by separate
+//! code, so a mistake in the builder's arithmetic is not repeated here, and becomes visible as wrong pixels.
+//! The module and the builder share only this input:
+//!
+//! - the faces' corners, rounded to the [grid](crate::Grid);
+//! - for each face, the three corners that define its plane, and the axis along which its other corners are
+//!   moved to that plane;
+//! - the eye, rounded to the grid;
+//! - for each side of a fragment, the number of the edge or plane that made this side.
 
 mod coverage;
 mod exact;

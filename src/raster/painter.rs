@@ -154,15 +154,16 @@ pub fn colour_of(polygon: usize) -> [u8; 3] {
     })
 }
 
-/// Returns the brightness of a surface, 0.55 + 0.45 · |n · d|: n is the surface's normal and d the direction
-/// of view, both of length 1. A surface that faces the viewer has brightness 1, its full colour; a surface
-/// seen edge-on has 0.55. Both sides are equally bright.
+/// Returns the brightness of a surface: 0.55 + 0.45 · |n · d|, where n is `normal`, d is the `direction` of
+/// view, and both have length 1. A surface that faces the viewer has brightness 1, its full colour. A surface
+/// seen edge-on has brightness 0.55. Both sides are equally bright.
 pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
     0.55 + 0.45 * normal.dot(direction).abs()
 }
 
-/// Returns the picture in colours. Each polygon has the colour that `colour` returns for its number, darker
-/// the more obliquely the polygon is seen. Pixels without a polygon have the colour `background`.
+/// Returns a picture in colours, as RGB. `colour` returns the colour of a polygon, given the polygon's
+/// number. A polygon is darker the more obliquely it is seen; see [`brightness`]. Pixels without a polygon
+/// have the colour `background`.
 ///
 /// # Panics
 ///
@@ -197,9 +198,9 @@ pub(super) fn shaded(colour: [u8; 3], normal: DVec3, direction: DVec3) -> [u8; 3
     colour.map(|c| (f64::from(c) * share).round() as u8)
 }
 
-/// Returns the depths as greys. `greys` are the grey of the nearest and of the furthest pixels, such as
-/// `[255, 40]` or `[40, 255]`; pixels without a face are black. The scale is linear in depth between the
-/// nearest and the furthest hundredth of the pixels.
+/// Returns the depths as a picture in greys. `greys` are the grey of the nearest pixels and the grey of the
+/// furthest pixels, such as `[255, 40]` or `[40, 255]`. Pixels without a face are black. Grey is linear in
+/// depth. The nearest 1 % of the pixels have the first grey, and the furthest 1 % have the second grey.
 pub fn depth_map(depth: &DepthImage, greys: [u8; 2]) -> Vec<u8> {
     let depths: Vec<f64> = depth.depths().collect();
     let mut sorted: Vec<f64> = depths.iter().copied().filter(|d| d.is_finite()).collect();
@@ -219,8 +220,9 @@ pub fn depth_map(depth: &DepthImage, greys: [u8; 2]) -> Vec<u8> {
     depths.into_iter().flat_map(|depth| [grey(depth); 3]).collect()
 }
 
-/// Returns a picture of the differences: `picture`, as RGB, at a quarter of its brightness, with contested
-/// pixels blue, wrong order red, holes yellow, and spills magenta.
+/// Returns a picture of the differences, as RGB. The background is `picture` at a quarter of its brightness.
+/// Contested pixels are blue, pixels in wrong order are red, holes are yellow, and spills are magenta; see
+/// [`Verdict`](super::Verdict).
 pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
     let pixels = comparison.verdicts.iter().zip(picture.chunks_exact(3));
     let colours = pixels.map(|(verdict, pixel)| match verdict {
@@ -233,11 +235,12 @@ pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
     colours.flatten().collect()
 }
 
-/// Paints a colour over a pixel's colour, as in every colour picture of this library. Amounts of red, green
-/// and blue are from 0 to 255. An opacity of 1 replaces the pixel's colour; 0 is invisible.
+/// Blends a colour over a pixel's colour, as in every colour picture of this library. Red, green and blue are
+/// from 0 to 255. With opacity 1, the colour replaces the pixel's colour; with opacity 0, the pixel does not
+/// change.
 ///
-/// The result is rounded, so the order matters: two pixels are bit for bit equal only if the same colours are
-/// painted over the same background one by one.
+/// The result is rounded. So two pixels are guaranteed to be equal bit for bit only if the same colours are
+/// blended over the same background, in the same order.
 pub fn blend(pixel: &mut [f32; 3], colour: [u8; 3], opacity: f32) {
     for (old, new) in pixel.iter_mut().zip(colour) {
         *old = *old * (1.0 - opacity) + f32::from(new) * opacity;

@@ -9,19 +9,20 @@ use crate::exact::{Eye, Faces, Lattice};
 use crate::view::{Camera, Projection, refused};
 use crate::viewpoint::Viewpoint;
 
-/// The rays of a camera through a scene, in integer lattice coordinates.
+/// The rays of a camera through a scene, in integer coordinates on a scene's [grid](crate::Grid).
 ///
-/// Here x and y are the column and the row of a pixel, and all vectors are integers:
+/// In this table, x and y are the column and the row of a pixel. The vectors base, right and down depend on
+/// the camera, and have integer components:
 ///
 /// | camera | the ray through the centre of pixel (x, y) |
 /// |---|---|
 /// | perspective | from the eye, in direction base + x·right + y·down |
 /// | parallel | through the point base + x·right + y·down, in the same direction for all pixels |
 ///
-/// This *defines* the picture: the camera is rounded once, and every decision after that is exact. The
-/// rounding is less than a thousandth of a pixel, unless the camera is more than a million extents away.
-/// Views too narrow for this precision are an error. The eye and the direction are rounded as in [`Eye`],
-/// which trees also use for orders.
+/// The rays *define* the picture: the camera is rounded once, and every later decision is exact. Rounding
+/// moves a ray by less than a thousandth of a pixel, unless the camera is more than a million extents of the
+/// scene away. Views too narrow for this precision are an error. The eye and the direction are rounded as for
+/// orders; see [`Viewpoint`](crate::Viewpoint).
 ///
 /// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
 /// such as the cells of a partition, may share rays. A function that takes rays and faces of different grids
@@ -98,25 +99,30 @@ impl Rays {
     ///
     /// # Errors
     ///
-    /// If a perspective camera is further from the scene than about 2³⁰ extents of the scene; if the picture
-    /// of a parallel camera reaches 2⁹ extents away from the scene; or if the view is so narrow that rays
-    /// could be off by a thousandth of a pixel. Let n be the sum of the picture's width and height in pixels.
-    /// A pixel of n · 2⁻⁴⁶ radians, or in a parallel view of n · 2⁻⁴⁰ of the scene's extent, is large enough.
-    /// With 1 000 by 1 000 pixels, that is a field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the
-    /// extent. The size of an oblong pixel is the shorter side. The size of a skewed pixel is the shorter
-    /// side times √(1 − |cos φ|), where φ is the angle between the sides.
+    /// One of these:
+    ///
+    /// - a perspective camera is further from the scene than about 2³⁰ extents of the scene;
+    /// - the picture of a parallel camera reaches 2⁹ extents away from the scene;
+    /// - the view is so narrow that rays could be off by a thousandth of a pixel.
+    ///
+    /// Let n be the sum of the picture's width and height in pixels. In a perspective view, pixels of n ·
+    /// 2⁻⁴⁶ radians are large enough. In a parallel view, pixels of n · 2⁻⁴⁰ of the scene's extent are large
+    /// enough. For a picture of 1 000 by 1 000 pixels, that is a field of view of 3·10⁻⁸ radians, or a width
+    /// of 2·10⁻⁶ of the extent. The size of a pixel is its shorter side. If the camera skews pixels, this
+    /// size is multiplied by √(1 − |cos φ|), where φ is the angle between a pixel's sides.
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, Error> {
         Self::sampled(camera, faces, 1)
     }
 
-    /// Creates the rays of a camera through a scene, `samples` by `samples` in each pixel, evenly spread: a
-    /// picture `samples` times as wide and as high. The picture may be larger than cameras allow; draw it by
-    /// [`rows`](Self::rows).
+    /// Creates the rays of a camera through a scene with `samples` × `samples` rays in each pixel, evenly
+    /// spread. The rays make a picture that is `samples` times as wide and as high as the camera's picture.
+    /// Such a picture may be larger than the largest picture of a camera; use [`rows`](Self::rows) to draw
+    /// the picture in parts.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new), with pixels `samples` times finer; and if `samples` is 0, or the
-    /// picture's sides do not fit `u32`.
+    /// As for [`new`](Self::new), with pixels that are `samples` times smaller. Also if `samples` is 0, or if
+    /// the picture's width or height does not fit `u32`.
     pub fn sampled(camera: &Camera, faces: &Faces, samples: u32) -> Result<Self, Error> {
         let sides = camera.size().map(|side| side.checked_mul(samples).filter(|&side| side > 0));
         let [Some(width), Some(height)] = sides else {
@@ -242,8 +248,8 @@ impl Rays {
         Self { size, base, above: self.above + start, ..self.clone() }
     }
 
-    /// Restricts the rays to the fronts of faces: the sides from which the faces' corners are
-    /// counter-clockwise.
+    /// Makes the rays ignore faces that they meet from behind, so that pictures show only the fronts of
+    /// faces. A face's corners are counter-clockwise seen from its front.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
     }
@@ -271,8 +277,9 @@ impl Rays {
         self.viewpoint
     }
 
-    /// Returns the start and the direction of a pixel's ray, in lattice units, for judges with other
-    /// arithmetic. The ray of a parallel camera also continues backwards.
+    /// Returns the start and the direction of a pixel's ray, in steps of the [grid](crate::Grid). Use them to
+    /// compute a picture with other arithmetic. The ray of a parallel camera is a whole line: it also extends
+    /// behind its start.
     #[doc(hidden)]
     pub fn ray(&self, x: u32, y: u32) -> [[i128; 3]; 2] {
         let wide = |v: [i64; 3]| v.map(i128::from);

@@ -118,7 +118,8 @@ impl Builtin {
         matches!(self.row().2, Recipe::Seeded(..))
     }
 
-    /// Reads a name with a size, such as `teapot:16`, or a name alone.
+    /// Reads the name of a scene, with a size, as in `teapot:16`, or without. Without a size, the second
+    /// result is `None`.
     ///
     /// ```
     /// use binspace::scene::Builtin;
@@ -167,8 +168,9 @@ impl Builtin {
         size.unwrap_or(default).clamp(low, high)
     }
 
-    /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to this range. Scenes of only
-    /// one size ignore `size`; scenes without randomness ignore `seed`.
+    /// Generates the scene. A size outside the range of [`sizes`](Self::sizes) is clamped to this range;
+    /// `None` is the default size. Scenes of only one size ignore `size`. Scenes without randomness ignore
+    /// `seed`.
     pub fn build(self, size: Option<u32>, seed: u64) -> Scene {
         let clamp = |default| self.clamped(size, default);
         match self.row().2 {

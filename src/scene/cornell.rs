@@ -15,13 +15,14 @@ const CEILING: [[f64; 3]; 4] =
 const LAMP: [[f64; 3]; 4] =
     [[343.0, 548.8, 227.0], [343.0, 548.8, 332.0], [213.0, 548.8, 332.0], [213.0, 548.8, 227.0]];
 
-/// Returns the Cornell box: 16 quads in millimetres, up is y, open towards −z.
+/// Returns the Cornell box, of 16 quads. The unit is the millimetre, up is y, and the box is open towards −z.
 ///
 /// The Cornell University Program of Computer Graphics published the measurements and the camera position
-/// ("Cornell Box Data"). The room's walls face inwards, the blocks outwards, and the blocks have no
-/// underside. As measured, the walls are not square, and the red wall is not exactly planar; the lamp lies in
-/// the plane of the ceiling. Order: floor, ceiling, lamp, back wall, green wall, red wall, short block, tall
-/// block (top, then sides). Colours are for display and are not derived from the measured spectra.
+/// ("Cornell Box Data"). The room's walls face inwards. The blocks face outwards and have no underside. As in
+/// the measurements, the walls are not rectangles, the red wall is not exactly planar, and the lamp lies in
+/// the plane of the ceiling. The order of the quads: floor, ceiling, lamp, back wall, green wall, red wall,
+/// short block, tall block (top, then sides). Colours are for display and are not derived from the measured
+/// spectra.
 pub fn cornell_box() -> Scene {
     let mut scene = Scene::new("cornell", DVec3::Y).with_view(
         // Published: direction 0 0 1. The room is 559.2 deep.

@@ -14,13 +14,14 @@ fn of_eight_colours(name: String) -> Scene {
     scene
 }
 
-/// Returns three bars in a cycle: each bar covers a part of the next bar, so no order of whole bars is right
-/// and one bar must be cut. 18 rectangles; up is z.
+/// Returns three bars that overlap in a cycle: each bar hides a part of the next bar. So no painting order of
+/// whole bars is correct, and one bar must be cut. 18 rectangles; up is z.
 ///
 /// This is the classic counterexample to sorting by depth, after M. E. Newell, R. G. Newell and T. L. Sancha,
 /// "A solution to the hidden surface problem", ACM 1972. Here the bars are axis-aligned boxes of 9 × 1 × 1
-/// along x, y and z, which do not touch. A cyclic permutation of the axes maps each bar to the next. Seen
-/// from (1, 1, 1), the bar along y covers the bar along x, z covers y, and x covers z.
+/// along x, y and z, which do not touch. Seen from the direction of (1, 1, 1), the bar along y hides a part
+/// of the bar along x, the bar along z hides a part of the bar along y, and the bar along x hides a part of
+/// the bar along z.
 pub fn newell_bars() -> Scene {
     let mut scene = Scene::new("newell", DVec3::Z).with_view(DVec3::splat(9.0), DVec3::ZERO);
     let mut low = DVec3::new(-4.5, 0.5, -1.5);
@@ -44,8 +45,8 @@ pub fn newell_bars() -> Scene {
 /// Returns `count` upright squares of side 2 that all cross in the z axis, like the leaves of a revolving
 /// door; up is z.
 ///
-/// Square `i` is turned by `i`/`count` of half a turn. If `count` is 2, the squares are perpendicular.
-/// `2·count` pieces suffice for an order.
+/// Square `i` is turned by `i`/`count` of half a turn. If `count` is 2, the squares are perpendicular. If
+/// each square is cut along the z axis, the `2·count` halves have a painting order for every eye.
 pub fn crossing(count: u32) -> Scene {
     let mut scene = of_eight_colours(format!("crossing:{count}"))
         .with_view(DVec3::new(2.5, -4.5, 2.0), DVec3::ZERO);
@@ -64,11 +65,11 @@ const SIDE: f64 = 100.0;
 /// Octaves of noise: the number of cells on a side, and the height that the octave adds.
 const OCTAVES: [(usize, f64); 5] = [(3, 14.0), (7, 6.0), (15, 2.5), (31, 1.0), (63, 0.4)];
 
-/// Returns a hilly terrain of about `triangles` triangles, 100 × 100, up is z.
+/// Returns a hilly terrain of about `triangles` triangles, 100 wide and 100 deep; up is z.
 ///
-/// The terrain is a height field over `side` × `side` squares of two triangles each, with `side` =
-/// √(`triangles`/2) rounded, at least 1. Heights are value noise in five octaves, mostly within ±12 and never
-/// beyond ±24. Every triangle faces up; no two triangles cross.
+/// The terrain is a height field over `side` × `side` squares of two triangles each. `side` is
+/// √(`triangles`/2), rounded, and at least 1. Heights are value noise of five octaves, mostly within ±12 and
+/// never beyond ±24. Every triangle faces up; no two triangles cross.
 pub fn terrain(triangles: u32, seed: u64) -> Scene {
     let side = (f64::from(triangles) / 2.0).sqrt().round().max(1.0) as usize;
     let mut scene = Scene::new(format!("terrain:{triangles}"), DVec3::Z)
@@ -137,13 +138,13 @@ fn height(noise: &[Vec<f64>], u: f64, v: f64) -> f64 {
     sum
 }
 
-/// Returns a unit sphere of about `faces` faces, up is z: quads between parallels and meridians, triangles at
-/// the poles.
+/// Returns a unit sphere of about `faces` faces; up is z. The faces are quads between parallels and
+/// meridians, and triangles at the poles.
 ///
-/// The sphere has `rows` × 2·`rows` faces, with `rows` = √(`faces`/2) rounded, at least 2 (an octahedron).
-/// Every quad is an isosceles trapezium inscribed in the sphere, so all faces are planar and the body is
-/// convex, up to the rounding of the corners. The sphere is the worst case for trees whose planes are the
-/// faces' own planes: the plane of a face separates only this face from the others.
+/// The sphere has `rows` × 2·`rows` faces. `rows` is √(`faces`/2), rounded, and at least 2, which makes an
+/// octahedron. Except for the rounding of the corners, all faces are planar and the body is convex. The
+/// sphere is the worst case for trees that use only the planes of faces, because the plane of a face
+/// separates only this face from the others.
 pub fn sphere(faces: u32) -> Scene {
     let rows = (f64::from(faces) / 2.0).sqrt().round().max(2.0) as u64;
     let columns = 2 * rows;
@@ -170,11 +171,12 @@ pub fn sphere(faces: u32) -> Scene {
 /// The side of a building plot, including half the width of the surrounding streets, in metres.
 const PLOT: f64 = 30.0;
 
-/// Returns a city of about `polygons` polygons in metres, up is z: a grid of houses on one ground square.
+/// Returns a city of about `polygons` polygons: a grid of houses on one square of ground. The unit is the
+/// metre; up is z.
 ///
-/// There are `side`² houses, with `side` = √((`polygons` − 1)/5) rounded, at least 1: axis-aligned boxes
-/// without an underside, 12 to 24 wide and deep and 6 to 120 high. The houses do not touch. Low houses are
-/// frequent, high houses rare.
+/// There are `side`² houses. `side` is √((`polygons` − 1)/5), rounded, and at least 1. Houses are
+/// axis-aligned boxes without an underside, 12 to 24 wide and deep, and 6 to 120 high. They do not touch. Low
+/// houses are frequent, and high houses are rare.
 pub fn city(polygons: u32, seed: u64) -> Scene {
     let wanted = (f64::from(polygons.saturating_sub(1)) / 5.0).sqrt();
     let side = wanted.round().max(1.0) as u32;
@@ -213,8 +215,8 @@ pub fn city(polygons: u32, seed: u64) -> Scene {
 /// The shortest and the longest edge of a random triangle.
 const EDGES: (f64, f64) = (0.1, 0.3);
 
-/// Returns `count` triangles anywhere in the unit cube, every edge between 0.1 and 0.3 long; up is z. Most
-/// triangles of a dense scene cross others.
+/// Returns `count` random triangles in the unit cube; up is z. Every edge is between 0.1 and 0.3 long. In a
+/// dense scene, most triangles cross other triangles.
 pub fn random_triangles(count: u32, seed: u64) -> Scene {
     let mut scene = of_eight_colours(format!("random:{count}"));
     let mut random = SplitMix64::new(seed);
@@ -244,8 +246,9 @@ fn fits(&[a, b, c]: &[DVec3; 3]) -> bool {
 
 /// Returns `count` parallel squares, one behind the other; up is z.
 ///
-/// Square `i` lies in the plane y = `i`, has side 10 and faces −y. No square's plane touches another square.
-/// The scene is hard because a tree of the squares' own planes can be a list of depth `count`.
+/// Square `i` lies in the plane y = `i`, has side 10, and faces −y. No square's plane touches another square.
+/// The scene is hard for recursive code: if a tree uses the squares' planes one after the other, its depth is
+/// `count`.
 pub fn chain(count: u32) -> Scene {
     let mut scene = of_eight_colours(format!("chain:{count}"));
     for index in 0..count {
@@ -255,11 +258,13 @@ pub fn chain(count: u32) -> Scene {
     scene
 }
 
-/// Returns `count` nested squares, each `gap` above the next larger square; up is z.
+/// Returns `count` squares above one another like a stepped pyramid, each `gap` above the next larger square;
+/// up is z.
 ///
 /// Square `i` lies at height `i`·`gap`, faces up, and is centred on the z axis. The lowest square has side 2,
 /// and each square is smaller by 2/`count` than the square below, so a strip of every layer is visible from
-/// above. A gap of 0 makes all squares coplanar; a small gap distinguishes exact decisions from tolerances.
+/// above. A gap of 0 makes all squares coplanar. With a small gap, exact orders are correct, and orders that
+/// use a tolerance larger than the gap may be wrong.
 pub fn layers(count: u32, gap: f64) -> Scene {
     let mut scene = of_eight_colours(format!("layers:{count}"))
         .with_view(DVec3::new(0.8, -1.6, 2.6), DVec3::ZERO);

@@ -1,8 +1,8 @@
 //! Scenes: polygons with flat colours, generated or read from a file.
 //!
-//! A [`Scene`] is a plain list of polygons, in the order in which they were added. A scene does not sort or
-//! draw. Each generated scene has a function ([`cornell_box`], [`teapot`], …), and [`Builtin`] lists all
-//! generated scenes. With the feature `obj`, `Scene::read_obj` reads Wavefront OBJ files.
+//! A [`Scene`] is a plain list of polygons, in the order in which the polygons were added. Each generated
+//! scene has a function ([`cornell_box`], [`teapot`], …), and [`Builtin`] lists all generated scenes. With
+//! the feature `obj`, `Scene::read_obj` reads Wavefront OBJ files.
 //!
 //! The corners of a polygon are counter-clockwise seen from its front. Fronts face outwards on a closed body,
 //! and inwards in a room. Every generated scene is bit for bit the same on every machine: generators use only
@@ -32,9 +32,9 @@ use crate::Polygon;
 
 /// Polygons with colours.
 ///
-/// Polygons are numbered from 0 in the order in which they were pushed. A scene accepts every polygon: the
-/// tree builder handles polygons with fewer than three corners, without area or with non-finite
-/// coordinates.
+/// Polygons are numbered from 0, in the order in which they were added. A scene accepts every polygon. A tree
+/// of the scene drops polygons without area. Infinite coordinates and NaN are an error only when a tree is
+/// built.
 ///
 /// ```
 /// use binspace::glam::DVec3;
@@ -205,25 +205,28 @@ impl Scene {
         &self.corners[start..self.ends[index]]
     }
 
-    /// Returns the polygons, in order. Each is a slice of corners with a precision, on which the default
-    /// tolerance depends.
+    /// Returns the polygons, in order. Pass the iterator to a build, such as
+    /// [`BspTree::build`](crate::BspTree::build). Each polygon consists of its corners and the scene's
+    /// [`precision`](Self::precision).
     pub fn polygons(&self) -> impl ExactSizeIterator<Item = ScenePolygon<'_>> + Clone {
         let polygon =
             |index| ScenePolygon { corners: self.polygon(index), precision: self.precision };
         (0..self.len()).map(polygon)
     }
 
-    /// Returns the largest distance of corners from their intended planes, a length. For a scene from an OBJ
-    /// file, this is four units in the last decimal that the coordinates need. (In a parallelogram whose
-    /// corners are off by half a unit in each direction, one corner is off the plane of the three others by
-    /// three and a half units.) In generated scenes the precision is 0, unless set by
-    /// [`with_precision`](Self::with_precision).
+    /// Returns the precision of the coordinates: the largest distance of a corner from the plane in which it
+    /// was meant to lie. The default tolerance depends on this distance.
+    ///
+    /// For a scene from an OBJ file, the precision is four units in the last decimal that the coordinates
+    /// need. (Suppose that rounding moves the corners of a parallelogram by half a unit along each axis. Then
+    /// one corner may be three and a half units off the plane of the three others.) In generated scenes the
+    /// precision is 0. Change it with [`with_precision`](Self::with_precision).
     pub fn precision(&self) -> f64 {
         self.precision
     }
 
-    /// Returns the texture coordinates of a corner of a polygon. `None` if the file gives no such
-    /// coordinates.
+    /// Returns the texture coordinates of a polygon's corner; `None` if the scene's file gives no texture
+    /// coordinates for this corner.
     ///
     /// # Panics
     ///
@@ -232,8 +235,8 @@ impl Scene {
         self.attribute(&self.attributes.uvs, polygon, corner)
     }
 
-    /// Returns the normal at a corner of a polygon, as in the file; the normal's length may differ from 1.
-    /// `None` if the file gives no normal.
+    /// Returns the normal at a polygon's corner, as in the scene's file; its length may differ from 1.
+    /// Returns `None` if the file gives no normal for this corner.
     ///
     /// # Panics
     ///
@@ -242,8 +245,8 @@ impl Scene {
         self.attribute(&self.attributes.normals, polygon, corner)
     }
 
-    /// Returns the colour of a corner of a polygon: red, green and blue as in the file, usually from 0 to 1.
-    /// `None` if the file gives no colour.
+    /// Returns the colour of a polygon's corner: red, green and blue as in the scene's file, usually from 0
+    /// to 1. Returns `None` if the file gives no colour for this corner.
     ///
     /// # Panics
     ///
@@ -293,8 +296,8 @@ impl Scene {
         Some(rest.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
     }
 
-    /// Returns an eye point and a target, for scenes that have a usual view or only one possible view, such
-    /// as the Cornell box through its open side.
+    /// Returns an eye point and a target to look at, if the scene has a usual view. For example, the Cornell
+    /// box is seen through its open side.
     pub fn suggested_view(&self) -> Option<(DVec3, DVec3)> {
         self.view
     }
@@ -327,8 +330,8 @@ impl Material {
         Self { opacity, ..self }
     }
 
-    /// Returns eight colours that are distinct for colour-blind eyes: Okabe and Ito, "Color Universal
-    /// Design", 2008, with grey in place of black.
+    /// Returns eight materials, with colours that colour-blind people can distinguish (Okabe and Ito, "Color
+    /// Universal Design", 2008). Grey replaces the black of this palette.
     pub fn palette() -> impl Iterator<Item = Self> {
         const PALETTE: [(&str, [u8; 3]); 8] = [
             ("orange", [230, 159, 0]),

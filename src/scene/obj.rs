@@ -20,40 +20,44 @@ use statements::{Statement, index, read};
 impl Scene {
     /// Reads a Wavefront OBJ file and the material libraries that it names.
     ///
-    /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from 0, with all its corners, in
-    /// any object or group. A face with fewer than three different corners keeps its place and is counted in
-    /// the report. Faces that are repeated, not convex or not planar are kept for the tree builder. Corners
-    /// keep their texture coordinates, their normals, and the colours of their `v` lines ([`uv`](Self::uv),
-    /// [`normal`](Self::normal), [`color`](Self::color)). Points, lines, curves, and a weight after the three
-    /// coordinates of a `v` line are left out. A line that ends in a backslash continues in the next line.
+    /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from 0. Objects and groups do not
+    /// matter. Every `f` line becomes a polygon with all its corners: also if it is degenerate, repeated, not
+    /// convex or not planar. Corners keep their [texture coordinates](Self::uv), their
+    /// [normals](Self::normal), and the [colours](Self::color) of their `v` lines. Points, lines, curves, and
+    /// weights of `v` lines are left out. A line that ends in a backslash continues in the next line.
     ///
-    /// Coordinates are read as `f64`. The scene's [`precision`](Self::precision) is four units in the last
-    /// decimal that the coordinates need. A file has either a fixed number of decimals, or a fixed number of
-    /// significant digits. If the significant digits are fixed, the largest coordinates decide. Zeros at the
-    /// end of all coordinates do not count (`1.230000` and `4.500000` need two decimals). A coordinate with
-    /// more than 15 significant digits is first rounded to 15 (`0.30000000000000004` needs one decimal). A
-    /// coordinate below about 10⁻¹¹ times the largest counts as 0. Outliers have nine or more significant
-    /// digits *and* more decimals than all coordinates with fewer digits. If at most 1 % of the coordinates
-    /// are outliers, only their first three digits count. If all coordinates of nine or more digits (except
-    /// 1 %) equal an `f32` after rounding to the written digits, the unit is the `f32` step of the largest
-    /// coordinate. Up is y, because OBJ files do not define it.
+    /// Up is y, because OBJ files do not define an up direction. Coordinates are read as `f64`. The scene's
+    /// [`precision`](Self::precision) is four units in the last decimal that the coordinates need:
+    ///
+    /// - In a file with a fixed number of decimals, the smallest decimal of any coordinate counts. In a file
+    ///   with a fixed number of significant digits, the last decimal of the largest coordinates counts.
+    /// - Zeros at the end of all coordinates do not count: `1.230000` and `4.500000` need two decimals.
+    /// - A coordinate with more than 15 significant digits is first rounded to 15 digits:
+    ///   `0.30000000000000004` needs one decimal.
+    /// - A coordinate below about 10⁻¹¹ times the largest coordinate counts as 0.
+    /// - Outliers are coordinates with nine or more significant digits *and* more decimals than all
+    ///   coordinates with fewer digits. If at most 1 % of the coordinates are outliers, only the first three
+    ///   digits of outliers count.
+    /// - If 99 % of the coordinates with nine or more digits equal an `f32` after rounding to the written
+    ///   digits, the file counts as written from `f32`. Then the unit is the `f32` step of the largest
+    ///   coordinate.
     ///
     /// A face's colour is the `Kd` of its material, read as sRGB. The opacity is the material's `d` or `Tr`.
     /// A missing or unreadable library is not an error: the report lists the library, and its materials
     /// appear as [`Material::DEFAULT`](super::Material::DEFAULT).
     ///
     /// Libraries are read from the file's folder and its subfolders. A library name that is absolute or
-    /// contains `..` is not followed, and the report lists the name. (Symbolic links are followed, because
-    /// the folder's owner made them, not the file.) Only regular files are read as libraries.
+    /// contains `..` is not followed, and the report lists the name. (Symbolic links are followed: the owner
+    /// of the folder made them, not the author of the file.) Only regular files are read as libraries.
     ///
     /// The file itself may be a device, or an unnamed pipe such as `/dev/stdin`. A named pipe is an error:
     /// without a writer, reading the pipe would wait forever. A line that is not UTF-8 is read as Latin-1.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, is not in UTF-8 or an 8-bit superset of ASCII, has no face, has a
-    /// coordinate that is malformed or not finite, or has a face that names a missing corner or has more
-    /// than 2²² corners. The error names the line and face.
+    /// If the file cannot be read or has no face; if its encoding is neither UTF-8 nor an 8-bit superset of
+    /// ASCII; if a coordinate is malformed or not finite; or if a face names a missing corner or has more
+    /// than 2²² corners. The error names the line and the face.
     pub fn read_obj(path: impl AsRef<Path>) -> Result<(Self, ObjReport), Error> {
         let path = path.as_ref();
         load(&path.display().to_string(), open(path), beside(path))
@@ -61,13 +65,13 @@ impl Scene {
 
     /// Reads the text of an OBJ file like [`read_obj`](Self::read_obj).
     ///
-    /// `name` is the scene's name, and errors include it. `library` returns the content of a material library
-    /// by the name used in the text, or `None`. `library` is never called with a name that is absolute or
-    /// contains `..`.
+    /// `name` is the scene's name, which errors include. `library` is a function that returns the content of
+    /// a material library, given the library's name in the text; `None` if there is no such library.
+    /// `library` is never called with a name that is absolute or contains `..`.
     ///
     /// # Errors
     ///
-    /// As for [`read_obj`](Self::read_obj), except for reading the file.
+    /// As for [`read_obj`](Self::read_obj), except errors of reading the file.
     pub fn from_obj(
         name: &str,
         bytes: &[u8],
@@ -219,8 +223,8 @@ fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
     words.map(|word| word.parse().ok().filter(|number: &f64| number.is_finite())).collect()
 }
 
-/// A Wavefront OBJ file, read polygon by polygon with only the vertices in memory: for scenes too large for
-/// one tree.
+/// A Wavefront OBJ file that is read polygon by polygon, with only the vertices in memory. Use it for scenes
+/// that are too large for one tree.
 ///
 /// Polygons, materials, precision and errors are the same as for [`Scene::read_obj`]. Texture coordinates,
 /// normals and colours of corners are ignored. The file is read twice, so it must be a regular file.
@@ -250,7 +254,7 @@ pub struct ObjStream {
 }
 
 impl ObjStream {
-    /// Reads a file once, for its vertices, materials and precision, and to find its errors.
+    /// Opens a file and reads it once, to store its vertices, materials and precision, and to find errors.
     ///
     /// # Errors
     ///
@@ -308,12 +312,12 @@ impl ObjStream {
         used.map(|(&vertex, _)| vertex)
     }
 
-    /// Reads the file again, and calls `visit` with the corners and the material number of each polygon, in
-    /// order, until `visit` breaks.
+    /// Reads the file again. Calls `visit` for each polygon in order, with the polygon's corners and the
+    /// number of its material, until `visit` returns [`ControlFlow::Break`](std::ops::ControlFlow::Break).
     ///
     /// # Errors
     ///
-    /// If the file can no longer be read, or has other faces than before.
+    /// If the file can no longer be read, or if its faces have changed.
     pub fn read<B>(
         &self,
         mut visit: impl FnMut(&[DVec3], u32) -> ControlFlow<B>,
@@ -387,7 +391,8 @@ fn of_file(name: &str, problem: impl Into<Problem>) -> Error {
 
 /// A report on an OBJ file: the faces read, and the parts left out.
 ///
-/// `Display` writes a short sentence about everything left out, or nothing.
+/// `Display` writes a short list of everything that was left out. If nothing was left out, `Display` writes
+/// nothing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ObjReport {
@@ -400,26 +405,26 @@ pub struct ObjReport {
     pub skipped_points: usize,
     /// The number of `l` lines.
     pub skipped_lines: usize,
-    /// The number of malformed `vt` and `vn` lines, and of references to such lines that are malformed or
-    /// name a missing line. The corners with such references lack that attribute.
+    /// The number of malformed `vt` and `vn` lines, plus the number of invalid references from corners to
+    /// such lines. A corner with an invalid reference has no texture coordinates, or no normal.
     pub skipped_attributes: usize,
-    /// The number of lines that begin with another, unknown word, such as the statements for free-form
-    /// curves and surfaces.
+    /// The number of lines that begin with an unknown word, such as the statements for free-form curves and
+    /// surfaces.
     pub skipped_statements: usize,
     /// Material libraries that could not be read, by the name in the file.
     pub missing_libraries: Vec<String>,
-    /// Material libraries that were not read, because their names are absolute or contain `..`, and so lead
-    /// out of the file's folder.
+    /// Material libraries that were not read because they may be outside the file's folder: their names are
+    /// absolute or contain `..`.
     pub outside_libraries: Vec<String>,
     /// Materials that are used but not defined.
     pub missing_materials: Vec<String>,
-    /// The number of `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
-    /// unsupported kind, such as spectral curves.
+    /// The number of `newmtl`, `Kd`, `d` and `Tr` lines of material libraries that were skipped, because the
+    /// line is malformed or of an unsupported kind, such as a spectral curve.
     pub skipped_material_lines: usize,
     /// The number of `map_Kd` and `map_d` lines in material libraries: textures, which are not read.
     pub skipped_textures: usize,
-    /// `Kd`, `d` and `Tr` lines in material libraries with a number below 0 or above 1, which was clamped to
-    /// 0 or 1: the library and the line, as in `parts.mtl:7`.
+    /// `Kd`, `d` and `Tr` lines of material libraries whose numbers are outside the range from 0 to 1 and
+    /// were clamped. Each line is given by its library and its number, as in `parts.mtl:7`.
     pub clamped_material_lines: Vec<String>,
 }
 

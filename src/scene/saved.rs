@@ -21,17 +21,18 @@ impl Scene {
     ///
     /// # Layout
     ///
-    /// Version 1. All numbers are little-endian. A list is its length as `u64` and then its items. An
-    /// optional item is a `u32`, 1 if present and 0 if not, and then its numbers.
+    /// This is version 1. All numbers are little-endian. A *list* is stored as its length, a `u64`, followed
+    /// by its items. An *optional* item begins with a `u32`, which is 1 if the item is present and 0 if not.
+    /// Its numbers follow in both cases; the numbers of an absent item have no meaning.
     ///
     /// | part | content |
     /// |---|---|
     /// | head | the bytes `binspacescen`, the version as `u32` |
-    /// | name | a list of bytes: UTF-8, at most 65 536 |
+    /// | name | a list of at most 65 536 bytes: the name in UTF-8 |
     /// | up, precision | three `f64`, and one `f64` |
     /// | view | six `f64`, optional: eye and target |
-    /// | materials | the number as `u64`; each is a name, and red, green, blue and opacity as `f32` |
-    /// | polygons | a list: the number of corners, and the material, as `u32` |
+    /// | materials | the number of materials as `u64`; for each material its name, a list of bytes; then red, green, blue and opacity as `f32` |
+    /// | polygons | a list: for each polygon the number of its corners, and the number of its material, as `u32` |
     /// | corners | the corners of all polygons: three `f64` each |
     /// | lines | a list: for each polygon its line in the source file, `u64`; or empty |
     /// | texture coordinates | a list: for each corner two `f64`, optional; or empty |
@@ -41,8 +42,8 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// The errors of the writer, or if a name is too long. The bytes written before an error are not a valid
-    /// file.
+    /// If the writer returns an error, or if a name is too long. The bytes written before an error are not a
+    /// valid file.
     pub fn write(&self, output: impl Write) -> io::Result<()> {
         let mut file = Writer::new(output, KIND)?;
         let numbers = |file: &mut Writer<_>, numbers: &[f64]| {
@@ -81,10 +82,10 @@ impl Scene {
         file.finish()
     }
 
-    /// Reads a scene that [`write`](Self::write) has written. Reads only the scene's bytes.
+    /// Reads a scene that [`write`](Self::write) has written. No byte after the scene is read.
     ///
-    /// Any file is safe to read, and memory grows with the bytes read. As in any scene, coordinates and
-    /// colours may be infinite or NaN.
+    /// Any file is safe to read: the memory used is proportional to the bytes read. As in any scene,
+    /// coordinates and colours may be infinite or NaN.
     ///
     /// # Errors
     ///

@@ -50,19 +50,18 @@ const SPOUT_UPPER: Tube = [
     [2.8, 2.4, 3.2, 2.4, 0.15],
 ];
 
-/// Returns the Utah teapot, `segments` × `segments` quads on each of its 32 patches; up is z, the spout
-/// points along +x.
+/// Returns the Utah teapot, with `segments` × `segments` quads for each of its 32 Bézier patches. Up is z,
+/// and the spout points along +x.
 ///
 /// Rim, body, handle, spout and lid are Martin Newell's patches of 1975, in the published proportions (3.15
 /// high, the body 4 across). F. Crow added the bottom ("The origins of the teapot", IEEE Computer Graphics
 /// and Applications 7(1), 1987). The patches are in the published order: 4 of the rim, 8 of the body, 4 of
-/// the handle, 4 of the spout, 8 of the lid, 4 of the bottom. Rim, body, lid and bottom are surfaces of
-/// revolution, and handle and spout are symmetric, so their profiles define all patches.
+/// the handle, 4 of the spout, 8 of the lid, 4 of the bottom.
 ///
 /// There are 32 · `segments`² polygons, which face outwards. The 8 · `segments` polygons at the top of the
-/// lid and the middle of the bottom are triangles. Neighbouring patches share corners bit for bit. As
-/// published, the lid leaves a gap to the rim, and handle and spout pierce the body. Fewer than 2 `segments`
-/// count as 2, because otherwise the spout's lip would fold flat.
+/// lid and the middle of the bottom are triangles. Neighbouring patches have the same corners, bit for bit.
+/// As in the published teapot, there is a gap between lid and rim, and handle and spout pierce the body.
+/// Fewer than 2 `segments` count as 2.
 pub fn teapot(segments: u32) -> Scene {
     let mut scene = Scene::new(format!("teapot:{segments}"), DVec3::Z)
         .with_view(DVec3::new(3.5, -9.5, 5.5), DVec3::new(0.2, 0.0, 1.3));

@@ -1,7 +1,7 @@
 """Exact back-to-front orders of polygons from one BSP tree.
 
-Build a `Tree` once. The tree cuts polygons that cross. For any viewpoint, the tree returns the order to paint the
-polygons:
+Build a `Tree` once. The tree cuts crossing polygons into parts, called fragments. For any viewpoint, the tree returns the
+order in which to paint the fragments:
 
 >>> import binspace
 >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
@@ -9,7 +9,7 @@ polygons:
 >>> tree.fragments.polygon[tree.order(eye=(0.5, 0.5, 9.0))].tolist()
 [1, 2, 0]
 
-`binspace.mpl` has axes for matplotlib that paint in such an order.
+`binspace.mpl` contains 3D axes for matplotlib that paint in such an order.
 """
 
 from __future__ import annotations
@@ -110,8 +110,8 @@ class Tree(_binspace.Tree):
     opacity : array of float, optional
         The opacity of each polygon, from 0 to 1. By default all polygons are opaque.
     tolerance : float, optional
-        Polygons that reach no further than this from a plane count as lying on the plane. The default follows the
-        precision of the numbers.
+        A polygon counts as lying on a plane if no corner is further from the plane than this distance. The default depends
+        on the precision of the numbers.
     bounds : array of shape (2, 3), optional
         Two opposite corners of a box that contains all lines and points of later overlays.
     max_fragments : int, optional
@@ -188,11 +188,12 @@ class Tree(_binspace.Tree):
     def fragments(self) -> Fragments:
         """All fragments as arrays.
 
-        Fragment `i` is a part of ``polygon[i]``. The vertices of the fragment are the rows of `points` from
-        ``offsets[i]`` to ``offsets[i + 1]``. ``edges[v]`` is the edge of the polygon that contains the side from vertex
-        `v` to the next vertex, or -1 if this side is a cut. Edge `k` begins at corner `k`.
+        A fragment is a convex part of a polygon. Fragment `i` is a part of polygon number ``polygon[i]``. The vertices of
+        fragment `i` are the rows of `points` from ``offsets[i]`` to ``offsets[i + 1]``. ``edges[v]`` belongs to the side
+        that leads from vertex `v` to the next vertex of its fragment. ``edges[v]`` is the number of the polygon's edge
+        that contains this side, or -1 if the side is a cut. A polygon's edge `k` begins at its corner `k`.
 
-        Vertex `v` is a weighted sum of corners of the polygon. The entries from ``weight_offsets[v]`` to
+        Vertex `v` is a weighted sum of corners of its polygon. The entries from ``weight_offsets[v]`` to
         ``weight_offsets[v + 1]`` of `weight_corners` are the numbers of these corners, and the same entries of `weights`
         are the weights of the corners.
         """
@@ -213,8 +214,12 @@ class Tree(_binspace.Tree):
         Returns
         -------
         Hits
-            Ray `i` has the hits from ``offsets[i]`` to ``offsets[i + 1]``: `polygon`, `parameter` along the ray,
-            `points`, and `facing`: 1 for the front, -1 for the back, 0 for a ray in the plane.
+            The hits of ray `i` are the entries from ``offsets[i]`` to ``offsets[i + 1]`` of these arrays:
+
+            - `polygon`: the number of the polygon that is hit;
+            - `parameter`: the place along the ray, 0 at its start, and 1 at the end of a segment or at start + direction;
+            - `points`: the position of the hit;
+            - `facing`: 1 if the ray hits the front, -1 if it hits the back, 0 if it lies in the polygon's plane.
         """
         if (direction is None) == (end is None):
             raise ValueError("give either a direction or an end")
@@ -224,8 +229,8 @@ class Tree(_binspace.Tree):
         return self._hits(start, other, direction is None, limit)
 
     def is_occluded(self, start, end):
-        """Returns whether a polygon lies between two points. For two lists of points, returns an array with a result for
-        each pair."""
+        """Returns whether a polygon lies between two points. Given two arrays of points, returns an array with a result for
+        each pair of points."""
         start, end, is_single = _pair(start, end)
         occluded = self._is_occluded(start, end)
         return bool(occluded[0]) if is_single else occluded
@@ -236,7 +241,8 @@ class Tree(_binspace.Tree):
         Parameters
         ----------
         lines : list of arrays of shape (n, 3), or a tuple (flat, offsets)
-            Polylines. NaN breaks a line into parts.
+            Polylines. In a tuple, line `i` has the rows of `flat` from ``offsets[i]`` to ``offsets[i + 1]``. A line is divided
+            at each point with NaN.
         points : array of shape (n, 3)
             Points. A point with NaN is left out.
         progress : callable, optional
@@ -259,16 +265,17 @@ class Tree(_binspace.Tree):
         front_faces_only : bool
             Whether polygons seen from behind are left out.
         least_area : float
-            Drawings leave out polygons with a smaller visible area, in square pixels.
+            The least visible area of a polygon, in square pixels. Drawings leave out polygons with a smaller visible area.
         progress : callable, optional
             As for `Tree`.
         """
         return Visibility(_binspace.Visibility(self, camera, front_faces_only, least_area, progress))
 
     def translucent(self, camera, overlay=None, *, front_faces_only=False, progress=None) -> Drawing:
-        """Returns a drawing of all polygons, hidden ones too, and of the lines and points of an overlay, in one order.
+        """Returns a drawing of all polygons, and of all lines and points of an overlay, in one painting order. Hidden polygons
+        are not left out.
 
-        Polygons are split only where no painting order exists.
+        A polygon is split only where no painting order of whole polygons exists.
         """
         return Drawing(self, camera, overlay, front_faces_only, progress)
 
@@ -286,21 +293,21 @@ def _pair(start, end):
 
 
 class Camera(_binspace.Camera):
-    """A camera of a view-projection matrix.
+    """A camera, given by a view-projection matrix.
 
     Parameters
     ----------
     matrix : array of shape (4, 4)
         The matrix from points to clip coordinates, both column vectors. A point with clip coordinates (x, y, z, w)
-        appears at ``((0.5 + 0.5 * x / w) * width, (0.5 - 0.5 * y / w) * height)``. Depths of parallel projections must increase
-        away from the viewer.
+        appears at ``((0.5 + 0.5 * x / w) * width, (0.5 - 0.5 * y / w) * height)``. In a parallel projection, z / w must
+        increase away from the viewer.
     size : (int, int)
         The width and the height of the picture in pixels.
 
     Raises
     ------
     ValueError
-        If the matrix determines no camera, or mirrors the picture.
+        If the matrix is not the matrix of a camera, or mirrors the picture.
     """
 
     def __new__(cls, matrix, size):
@@ -320,8 +327,8 @@ class Camera(_binspace.Camera):
 
 
 def _color(color):
-    """Converts three numbers from 0 to 1, ``#rrggbb``, or a name that matplotlib knows, to red, green and blue from 0 to
-    255."""
+    """Converts a colour to red, green and blue from 0 to 255. The colour is three numbers from 0 to 1, ``#rrggbb``, or a name
+    that matplotlib knows."""
     if isinstance(color, str):
         if len(color) == 7 and color[0] == "#":
             return [int(color[i : i + 2], 16) for i in (1, 3, 5)]
@@ -353,8 +360,8 @@ class Visibility:
         return tuple(self._map.size)
 
     def polygons(self) -> VisiblePolygons:
-        """Returns the visible polygons: `polygon`, visible `area` in square pixels, and a `point` where the polygon is
-        visible."""
+        """Returns, for each visible polygon, its number as `polygon`, its visible `area` in square pixels, and a `point` in
+        the picture where the polygon is visible."""
         return self._map.polygons()
 
     def drawing(self, *, progress=None) -> Drawing:
@@ -362,8 +369,8 @@ class Visibility:
         return self._map.drawing(progress=progress)
 
     def edges(self, hidden="skip", *, progress=None) -> EdgeRuns:
-        """Returns the visible parts of edges. With "keep", also returns the hidden parts. With "count", also returns how many
-        polygons are in front of each hidden part."""
+        """Returns the visible parts of edges. If `hidden` is "keep", also returns the hidden parts. If `hidden` is "count",
+        also returns the number of polygons in front of each hidden part."""
         return self._map.edges(hidden, progress=progress)
 
     def crossings(self, hidden="skip", *, progress=None) -> EdgeRuns:
@@ -388,12 +395,12 @@ class Visibility:
         colors : a colour, or a list with a colour for each polygon
             Names, ``#rrggbb``, or three numbers from 0 to 1.
         outlines, edges : (width, colour), optional
-            `outlines` are lines along the edges of each polygon, painted with the polygon. `edges` are lines along
-            visible edges and crossings, painted above all polygons.
+            The strokes of two kinds of lines. `outlines` lie along the edges of each polygon, and are painted with the
+            polygon. `edges` lie along visible edges and crossings, and are painted above all polygons.
         lines : Overlay, optional
-            The visible parts of the overlay's lines are painted above everything else.
+            An overlay. The visible parts of its lines are painted above everything else.
         line : (width, colour)
-            The stroke of these lines. The default is 1 pixel and black.
+            The stroke of the overlay's lines. The default is 1 pixel and black.
         background : colour, optional
 
         Returns

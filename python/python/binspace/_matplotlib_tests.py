@@ -93,8 +93,8 @@ def results(folder, axes):
 
 
 def reason(name, failures):
-    """Returns the reason why a test fails, or None if the reason is unknown. Exceptions of a listed test, and other
-    failures without a known beginning, are unknown."""
+    """Returns the known reason why a test fails. Returns None if the test is not listed, or if one of its failures does not
+    begin with the expected message."""
     why = REASONS.get(name)
     begin = NAMED if why == NAME else PICTURE
     return why if all(failure.startswith(begin) for failure in failures) else None
@@ -102,7 +102,7 @@ def reason(name, failures):
 
 def main(tests):
     """Prints the tests that fail only with exact axes. `tests` is the folder lib/mpl_toolkits/mplot3d/tests of matplotlib's
-    sources, which has the expected pictures."""
+    sources, which contains the expected pictures."""
     with tempfile.TemporaryDirectory() as folder:
         # Copied out of the source tree, because the sources in that tree are not built.
         shutil.copytree(tests, os.path.join(folder, "tests"))

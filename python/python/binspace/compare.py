@@ -2,10 +2,10 @@
 
 ``python -m binspace.compare`` draws each scene on both kinds of axes without antialiasing, and prints how many pixels
 are wrong. Each polygon has its own colour, so the colour of a pixel tells which polygon was painted last. The judge is a
-depth buffer of the same view in float64. This judge shares no arithmetic with the library. Pixels next to a visible
+depth buffer of the same view in float64. The judge shares no arithmetic with the library. Pixels next to a visible
 edge, and pixels where two depths are almost equal, are doubtful and not judged.
 
-Lines, markers and texts are judged at points along them. The depth buffer decides which of these points must be visible.
+Lines, markers and texts are judged at single points on them. The depth buffer decides which of these points must be visible.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class View:
         return points
 
     def __call__(self, points):
-        """Returns positions in pixels from the top left corner, and depths that are linear in the picture over each plane:
-        z of a parallel view, and -1 / w of a perspective view."""
+        """Returns positions in pixels from the top left corner, and depths. The depth is z in a parallel view, and -1 / w in
+        a perspective view: over each plane, it is a linear function of the position in the picture."""
         points = self.scaled(points)
         homogeneous = np.concatenate([points, np.ones((*points.shape[:-1], 1))], -1) @ self.matrix.T
         w = homogeneous[..., 3]
@@ -274,8 +274,8 @@ def _triangle(corners, depths, x, y):
 
 
 def _is_alike(numbers):
-    """Returns for each pixel whether all pixels around it have the same number. The distance is two pixels, because Agg
-    fills each pixel that an area touches."""
+    """Returns for each pixel whether all pixels within two pixels of it have the same number. One pixel is not enough, because
+    Agg fills each pixel that an area touches."""
     return _spread(numbers, 2, np.minimum) == _spread(numbers, 2, np.maximum)
 
 

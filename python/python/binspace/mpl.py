@@ -6,11 +6,11 @@ Importing this module registers the projection ``"exact3d"``:
 >>> import binspace.mpl
 >>> ax = plt.figure().add_subplot(projection="exact3d")
 
-`exact` makes existing axes exact, and `install` makes ``"3d"`` itself exact.
+`exact` makes existing 3D axes paint in exact order. `install` does so for all later axes with the projection ``"3d"``.
 
-Polygons are cut where two polygons cross, and lines where a line passes through a polygon. Polygons of one plane, and
-lines and points on this plane, are painted by `zorder`. Items with equal `zorder` are painted in the order in which they
-were added.
+Polygons are cut where two polygons cross. Lines are cut where a line passes through a polygon. Polygons in one plane, and
+lines and points on this plane, are painted in the order of their `zorder`. Items with equal `zorder` are painted in the order
+in which they were added.
 """
 
 from __future__ import annotations
@@ -74,9 +74,9 @@ def _placed(axes, artist, points):
 
 
 class _Polygons:
-    """Polygons of an artist. `points` has the corners of all polygons, and `lengths` the number of corners of each polygon.
-    `rows` has the row of each polygon in the artist's colours. `own` has for each corner whether the edge that begins at
-    the corner is an edge of the artist."""
+    """Polygons of an artist. `points` are the corners of all polygons, and `lengths` are the numbers of corners of the
+    polygons. ``rows[i]`` is the row of polygon `i` in the artist's colours. ``own[k]`` is true if the edge that begins at
+    corner `k` is an edge of the artist."""
 
     def __init__(self, points, lengths, rows, own):
         self.points, self.lengths, self.rows, self.own = points, lengths, rows, own
@@ -133,8 +133,9 @@ def _rings(points, codes):
 
 
 def _nested(rings):
-    """Returns the pairs of rings in a plane where the first corner of one ring is inside the other ring: the numbers of the
-    inner rings and of the outer rings. A corner is inside if a ray to the right crosses the ring an odd number of times."""
+    """Finds all pairs of rings in a plane where the first corner of one ring is inside the other ring. Returns the number of
+    the inner ring of each pair, and the number of the outer ring. A corner is inside a ring if a ray to the right crosses the
+    ring an odd number of times."""
     lengths = np.array([len(ring) for ring in rings])
     starts = np.cumsum(lengths) - lengths
     a = np.concatenate(rings)
@@ -163,8 +164,8 @@ def _nested(rings):
 
 
 def _without_holes(rings):
-    """Makes polygons of rings in one plane. A bridge joins each hole to the outline around the hole. Also returns which
-    edges belong to rings.
+    """Converts rings in one plane to polygons without holes: a bridge joins each hole to the outline around the hole. Returns
+    each polygon with an array of booleans: whether each edge belongs to a ring.
 
     Bridges go from the rightmost corner of a hole to a corner visible from there (D. Eberly, "Triangulation by ear
     clipping", 2002). Areas inside an odd number of rings are filled.
@@ -505,9 +506,9 @@ def _kind(artist):
 
 
 class _Late(Sequence):
-    """The projected paths of a collection, or the colours of these paths. The collection is projected when the list is
-    first read. Picking reads the list; painting does not. Collections that were removed from the axes are projected
-    too."""
+    """A list that replaces the projected paths of a collection, or the colours of these paths. The collection is projected
+    when this list is first read. Picking reads the list; painting does not. A collection is also projected after it was removed
+    from the axes."""
 
     def __init__(self, artist, name):
         self._artist, self._axes, self._name = artist, artist.axes, name
@@ -677,8 +678,8 @@ def _are_all(values, starts, lengths):
 
 
 def _planes(points, starts, ends, numbers):
-    """Returns the planes of the outlines with these numbers: normals, and the scalar product of each normal with a
-    corner."""
+    """Returns the planes of the outlines with these numbers: the normals of the planes, and the scalar product of each normal
+    with a corner of its outline."""
     starts, lengths = starts[numbers], (ends - starts)[numbers]
     corners, owner = _ranges(starts, lengths)
     last = np.cumsum(lengths) - 1
@@ -704,8 +705,8 @@ def _ranges(starts, lengths):
 
 
 def _closed(offsets):
-    """Closes outlines. Returns the numbers of all corners, with each outline's first corner repeated at its end; codes;
-    and where each outline begins."""
+    """Closes outlines by repeating the first corner of each outline at its end. Returns the numbers of all corners, the path
+    code of each corner, and the place where each outline begins."""
     count = len(offsets) - 1
     closed = offsets + np.arange(count + 1)
     corners = np.arange(closed[-1]) - np.repeat(np.arange(count), np.diff(closed))
@@ -717,8 +718,8 @@ def _closed(offsets):
 
 
 def _without_repeats(places, offsets):
-    """Returns the corners of outlines, and where each outline begins, without corners that repeat the previous
-    corner."""
+    """Removes corners of outlines that repeat the previous corner. Returns the remaining corners, and the place where each
+    outline begins."""
     is_other = (np.abs(np.diff(places, axis=0)) > _JOINED).any(1)
     keep = np.append(True, is_other)[: len(places)]
     keep[offsets[:-1][offsets[:-1] < len(keep)]] = True
@@ -726,8 +727,8 @@ def _without_repeats(places, offsets):
 
 
 class _Outline(Path):
-    """A path with plain attributes instead of properties, because renderers read these attributes for each path of a
-    collection."""
+    """A path with plain attributes instead of properties. Plain attributes are faster, and renderers read them for each path
+    of a collection."""
 
     __slots__ = ("vertices", "codes")
     should_simplify = _should_simplify = False
@@ -740,8 +741,8 @@ class _Outline(Path):
 
 
 def _views(offsets):
-    """Returns closed paths of outlines, the numbers of all corners of these paths, and the array of the corners'
-    positions. The paths are views of this array."""
+    """Makes closed paths of outlines. Returns the paths, the numbers of all corners of the paths, and an array for the
+    positions of these corners. The paths are views of this array."""
     lengths = np.diff(offsets)
     places = np.zeros((offsets[-1] + len(lengths), 2))
     corners, paths, start = [np.empty(0, int)], np.empty(len(lengths), object), 0
@@ -765,8 +766,8 @@ def _paths(places, codes, offsets):
 
 
 def _stroked(starts, lengths, own):
-    """Returns lines along those edges of each outline that are the outline's own: numbers of corners, codes, and where
-    the lines of each outline begin."""
+    """Makes lines along those edges of each outline that `own` marks. Returns the numbers of the lines' corners, the path
+    code of each corner, and the place where the lines of each outline begin."""
     corners, owner = _ranges(starts, lengths)
     first = np.cumsum(lengths) - lengths
     # Each line begins after an edge that is not its outline's own.
@@ -787,8 +788,8 @@ def _stroked(starts, lengths, own):
 
 
 class _Shown:
-    """The items of a picture in painting order. Kind 0 is an area, kind 1 a part of a line, and kind 2 a point. Each
-    item has its number in the lists below. Positions are in display coordinates."""
+    """The items of a picture in painting order. Kind 0 is an area, kind 1 a part of a line, and kind 2 a point. The
+    number of an item is its index in the lists of its kind below. Positions are in display coordinates."""
 
     def __init__(self, kinds, numbers):
         self.kinds, self.numbers = kinds, numbers
@@ -815,9 +816,9 @@ class _Shown:
 
 
 def _runs(built, order, view, may_join):
-    """Divides an order into runs, and returns where they begin. Consecutive fragments of a polygon form a run if the
-    polygon may be joined and the fragments show the same side: outlines of two sides may overlap. Each other fragment,
-    part of a line, and point is a run by itself."""
+    """Divides an order into runs, and returns where the runs begin. Consecutive fragments of a polygon form a run if
+    `may_join` is true for the polygon, and the same side of these fragments is visible. (Outlines of different sides may
+    overlap.) Each other fragment, each part of a line, and each point is a run by itself."""
     *normals, shift = built.planes
     eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
     # The polygon and the side of each fragment.
@@ -830,8 +831,8 @@ def _runs(built, order, view, may_join):
 
 
 class _Ordered(_Shown):
-    """The fragments of a tree in the order of the tree: fast, for any view. Consecutive fragments of a polygon form one
-    area. If an area is a whole polygon, the path of the area is the polygon's outline."""
+    """The fragments of a tree in the tree's order, which is fast to compute for any view. Consecutive fragments of a polygon
+    form one area. If an area is a whole polygon, the path of the area is the polygon's outline."""
 
     def __init__(self, built, matrix, to_display):
         view = _viewpoint(matrix)
@@ -975,9 +976,8 @@ class _Drawn(_Shown):
                 self._leave_out_hidden(seen, built.overlay, place, are_texts)
 
     def _leave_out_hidden(self, seen, overlay, place, are_texts):
-        """Leaves out hidden polygons and hidden parts of lines, which would show through seams of the polygons in front.
-        Also leaves out markers whose middle is hidden, because such a marker would cover a polygon in front, beside the
-        middle."""
+        """Leaves out hidden polygons and hidden parts of lines, which would show through seams of the polygons in front. Also
+        leaves out markers whose middle is hidden: otherwise the marker's visible margin would cover the polygon in front."""
         is_visible = np.zeros(self.polygon.max(initial=-1) + 1, bool)
         visible = seen.polygons().polygon
         is_visible[visible[visible < len(is_visible)]] = True
@@ -1209,8 +1209,8 @@ class _Composite(martist.Artist):
         return batch
 
     def _areas(self, shown, areas, position):
-        """Returns areas as lists: positions in the order, paths, colours of faces and edges, widths, antialiasing, and
-        dashes."""
+        """Returns these lists for areas: positions in the order, paths, colours of faces, colours of edges, widths,
+        antialiasing, and dashes."""
         look, polygon = self.looks, shown.polygon[areas]
         is_apart = look.is_stroked[polygon] & ~shown.is_whole[areas]
         fills = shown.fills[areas]
@@ -1280,8 +1280,8 @@ class _Composite(martist.Artist):
 
 
 def _chains(shown, numbers, run, may_sort):
-    """Joins consecutive parts of lines of one run to chains. Returns for each chain the number of the first part, the
-    line, and the segment where the chain begins. Also returns the corners of all chains, and where each chain begins."""
+    """Joins consecutive parts of lines of one run to chains. Returns for each chain the number of its first part, its line,
+    and the segment where the chain begins. Also returns the corners of all chains, and the place where each chain begins."""
     line, segment, ends = shown.line[numbers], shown.segment[numbers], shown.ends[numbers]
     # The position of each part along its segment. All parts of a segment have the same direction.
     step = ends[:, 1] - ends[:, 0]
@@ -1445,7 +1445,8 @@ class _Exact:
 
 
 class ExactAxes3D(_Exact, Axes3D):
-    """`mpl_toolkits.mplot3d.axes3d.Axes3D` with contents painted in exact order: projection ``"exact3d"``.
+    """3D axes that paint their contents in exact order, with the projection ``"exact3d"``. Derived from
+    `mpl_toolkits.mplot3d.axes3d.Axes3D`.
 
     Set the attribute `exact_progress` to a function that is called with the finished and the total work while a tree of many
     polygons is built. An exception in this function, or Ctrl-C, cancels the drawing.
@@ -1460,7 +1461,7 @@ ExactAxes3D.name = Axes3D.name
 
 
 def exact(axes):
-    """Makes 3D axes exact, in place.
+    """Makes existing 3D axes paint in exact order. The axes are changed in place.
 
     Parameters
     ----------

@@ -16,8 +16,8 @@ use crate::progress::Watch;
 /// [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser).
 ///
 /// Each piece has a number below [`piece_count`](Self::piece_count). A piece is a convex part of a polygon,
-/// and lies on one side of every plane nearer the root. Polygons that are not convex or not planar are
-/// divided into triangles. Positions are in the polygons' unit, rounded like
+/// already cut by the planes that separated this set from the rest of the scene. (Polygons that are not
+/// convex or not planar are first divided into triangles.) Positions are in the polygons' unit, rounded like
 /// [`Fragment::vertices`](crate::Fragment::vertices).
 ///
 /// # Panics
@@ -38,9 +38,9 @@ pub enum SplitPlane {
     OfPiece(usize),
     /// A plane perpendicular to an axis. Its front is the side of larger coordinates.
     ///
-    /// Every plane of a tree contains a corner of a polygon. Among the corners of all polygons of the build,
-    /// this plane contains the corner nearest the coordinate. Corners have their positions after rounding to
-    /// the grid and flattening within the tolerance.
+    /// Every plane of a tree goes through a corner of a polygon. So the build moves this plane along the axis
+    /// to the corner nearest to `coordinate`. All corners of all polygons count, at their positions after
+    /// rounding to the grid and flattening within the tolerance.
     Axis {
         /// 0, 1 or 2 for x, y or z.
         axis: usize,
@@ -96,13 +96,14 @@ impl<'a> PieceSet<'a> {
         self.set.faces.plane(plane).normal_f64().normalize()
     }
 
-    /// Returns the side of a plane on which each piece lies, in the order of the pieces' numbers. `None` if
-    /// the plane names a piece or axis that does not exist, or a coordinate that is NaN or infinite.
+    /// Returns the side of a plane on which each piece lies, in the order of the pieces' numbers. Returns
+    /// `None` if the plane's piece or axis does not exist, or its coordinate is NaN or infinite.
     ///
-    /// The returned sides are those that the build will use: exact, except for the tolerance. The build uses
-    /// another plane only if a larger polygon lies in the plane of a piece, within the tolerance (see
-    /// [`Heuristic`](crate::Heuristic)). Takes O(n) time for n vertices. For an axis plane, a binary search
-    /// first finds the nearest corner; the first search along an axis sorts all corners.
+    /// The sides are exact, except for the tolerance, and the build uses the same sides. Exception: if a
+    /// larger polygon of the set is coplanar with a piece within the tolerance, the build may replace the
+    /// piece's plane by the larger polygon's plane (see [`Heuristic`](crate::Heuristic)). Takes O(n) time for
+    /// n vertices. For an axis plane, a binary search first finds the nearest corner; the first search along
+    /// an axis sorts all corners.
     pub fn sides(
         &self,
         plane: SplitPlane,
