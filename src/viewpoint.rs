@@ -187,8 +187,9 @@ impl Frustum {
     }
 
     /// Creates the region of the points that a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w. For a projection
-    /// matrix of OpenGL, Vulkan, Direct3D or WebGPU, this is the view through the picture's four sides. Depth
-    /// is ignored, so there is no near and no far plane.
+    /// matrix of OpenGL, Vulkan, Direct3D or WebGPU, this region is what the camera sees: the planes through
+    /// the eye and the four sides of the picture bound it. Depth is ignored, so there is no near and no far
+    /// plane.
     ///
     /// Rounding of the matrix may exclude points exactly on the sides. To include them, use a slightly wider
     /// projection.

@@ -359,7 +359,8 @@ impl BuildOptions {
 }
 
 impl Partition {
-    /// Counts the polygons that builds of cells drop, triangulate and flatten, like [`BspTree::preparation`].
+    /// Counts the polygons that are dropped, triangulated or flattened when the trees of cells are built, like
+    /// [`BspTree::preparation`].
     /// Each polygon is counted once, however many cells it reaches. [`dropped`](crate::Preparation::dropped)
     /// counts only polygons without area, not polygons outside a cell. If a scene does not fit into memory,
     /// call this method for one list of polygons at a time, and add up the counts. Takes as long as the

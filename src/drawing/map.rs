@@ -167,7 +167,8 @@ pub struct VisiblePolygon {
     pub polygon: usize,
     /// The visible area of the polygon, in square pixels.
     pub area: f64,
-    /// A point at which the polygon is visible, near the middle of its largest cell, in pixels.
+    /// A point, in pixels, at which the polygon is visible: near the middle of the polygon's largest
+    /// [cell](MapCell).
     pub point: [f64; 2],
 }
 

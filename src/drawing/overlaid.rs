@@ -35,7 +35,7 @@ pub struct LineRun {
     pub layers: Option<u32>,
 }
 
-/// A point of an overlay in a picture.
+/// A point of an [`Overlay`](crate::overlay::Overlay), as it appears in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MarkerView {

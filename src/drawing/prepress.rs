@@ -222,8 +222,8 @@ impl Drawing {
     /// Extends the outlines of opaque polygons under their later opaque neighbours, so that almost no
     /// background shows in the seams.
     ///
-    /// Viewers blend the border pixels of each path with the pixels below. Along an edge of two polygons that
-    /// each cover half of a pixel, a quarter of the background shows. Printers close such gaps by *trapping*
+    /// Viewers blend the border pixels of each path with the pixels below. Where two polygons share an edge and
+    /// each covers half of a pixel, a quarter of the background still shows. Printers close such gaps by *trapping*
     /// (ISO 32000-1, 14.11.6): the lower area is extended by about a pixel under the upper area. The upper
     /// area is opaque and painted later, so the extension is not visible. `is_opaque` returns whether the
     /// polygon with a given number is opaque. A side of an outline is extended if
@@ -231,7 +231,7 @@ impl Drawing {
     /// - its own polygon is opaque;
     /// - a polygon that is painted later touches the side, and is opaque;
     /// - the outline of that polygon is convex or has at most 24 corners; and
-    /// - the extension has at least a tenth of a square pixel.
+    /// - the area of the extension is at least a tenth of a square pixel.
     ///
     /// No path is added, removed or moved; outlines only gain corners. An extended side is no longer an
     /// [edge](Path::edges) of its polygon.

@@ -202,7 +202,7 @@ pub enum Part<'t> {
     Fragment(Fragment<'t>),
 }
 
-/// How a walk continues.
+/// The result of the caller's function in a walk ([`Order::walk`]): how the walk continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow<B = ()> {
     /// Enter the subtree. After a fragment: continue with the next part.
