@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::{fmt, io};
 
-/// The reason why a build, read, write or other call failed: the [kind](Self::kind) of the error, and the
-/// polygon that caused the error, if any. The message says what to do.
+/// The reason why a call failed, such as building or reading a tree: the [kind](Self::kind) of the error, and
+/// the polygon that caused the error, if any. The message says what to do.
 #[derive(Clone, PartialEq)]
 pub struct Error {
     kind: Kind,
@@ -133,11 +133,13 @@ impl Error {
 pub enum ErrorKind {
     /// A number of a polygon, option or argument is NaN, infinite or out of range.
     InvalidInput,
-    /// A polygon, line or point of an overlay or a cell lies outside the tree's grid.
+    /// A polygon, line or point of an [overlay](crate::overlay::Overlay) or a [cell](crate::partition) lies
+    /// outside the tree's [grid](crate::BspTree::grid).
     OutOfBounds,
-    /// A body has an open edge, so the body has no inside.
+    /// A body has an [open edge](crate::BspTree::open_edges), so the body has no inside.
     OpenBody,
-    /// The input is too large for the integers of a tree.
+    /// The number of polygons or corners, or of indices of a mesh or of arrays, is too large for the
+    /// library's integers.
     TooLarge,
     /// A build or a call reached a limit set in [`BuildOptions`](crate::BuildOptions). A larger limit or
     /// another heuristic may succeed.
@@ -152,7 +154,7 @@ pub enum ErrorKind {
     /// The caller's callback cancelled the call, as in
     /// [`build_with_progress`](crate::BuildOptions::build_with_progress).
     Cancelled,
-    /// An overlay or a mesh was made for another tree.
+    /// An [overlay](crate::overlay::Overlay) or a [mesh](crate::mesh::Mesh) was made for another tree.
     OtherTree,
     /// Two features do not work together, such as a drawing and the tree of one cell.
     Unsupported,

@@ -8,7 +8,7 @@ use crate::paint::Pieces;
 use crate::raster::{Rays, Window, for_each_run};
 use crate::tree::{BspTree, Fragment};
 
-/// A mask of the pixels that fragments cover, for occlusion culling in a front-to-back
+/// A mask of the pixels that [fragments](crate::Fragment) cover, for occlusion culling in a front-to-back
 /// [walk](crate::Order::walk).
 ///
 /// Call [`cover`](Self::cover) with each visited fragment. Skip each subtree whose box the mask

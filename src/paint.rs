@@ -5,8 +5,8 @@ use crate::raster::{Image, Layers, Outline, Painter, Piece, Rays, blend, for_eac
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Viewpoint;
 
-/// Paints a tree's fragments in the back-to-front order of a viewpoint. `viewpoint` should be the viewpoint
-/// of the camera that the rays were made from.
+/// Paints a tree's [fragments](Fragment) in the back-to-front order of a viewpoint. `viewpoint` should be the
+/// viewpoint of the camera that the rays were made from.
 ///
 /// The edges of fragments are exact: they are computed from the planes that cut the fragments, not from
 /// rounded vertices.
@@ -50,11 +50,11 @@ pub(crate) fn paint_list(
     painter.finish()
 }
 
-/// Paints a tree's fragments in colours, back to front, over a background. `look` returns the
-/// colour and the opacity of a polygon, given its number.
+/// Paints a tree's fragments in colours, back to front, over a background. `look` returns the colour and the
+/// opacity of a polygon, given the polygon's number.
 ///
-/// The picture is RGB, 8 bits each, row by row from the top left. If everything is opaque, it equals
-/// [`raster::picture`](crate::raster::picture) of the image from [`paint_tree`].
+/// The picture is RGB, 8 bits each, row by row from the top left. If all polygons are opaque, the picture
+/// equals [`raster::picture`](crate::raster::picture) of the image from [`paint_tree`].
 ///
 /// # Panics
 ///

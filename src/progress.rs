@@ -30,8 +30,8 @@ const FACE: u64 = 1 << 32;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// The number of faces stored in the tree so far. If only some pieces of a face are stored, the face
-    /// counts as a fraction. The sum is rounded down.
+    /// The number of faces stored in the tree so far. If only some [fragments](crate::Fragment) of a face are
+    /// stored, the face counts as a fraction. The sum is rounded down.
     pub done: usize,
     /// The number of faces, or of polygons while polygons are read; 0 in the first call.
     pub total: usize,

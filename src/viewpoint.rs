@@ -30,7 +30,7 @@ use smallvec::SmallVec;
 pub enum Viewpoint {
     /// The point where the eye is.
     Eye(DVec3),
-    /// The direction in which the viewer looks, from infinitely far away; its length is ignored.
+    /// The direction in which the viewer looks, from infinitely far away; the vector's length is ignored.
     Direction(DVec3),
 }
 
@@ -51,7 +51,7 @@ impl Viewpoint {
 pub enum Facing {
     /// The front: corners are counter-clockwise, and the normal points to the eye.
     Front,
-    /// The back.
+    /// The back: corners are clockwise, and the normal points away from the eye.
     Back,
     /// Neither: the eye lies in the plane, or the direction is parallel to the plane.
     EdgeOn,
@@ -96,7 +96,7 @@ impl From<Facing> for Ordering {
 /// |---|---|
 /// | any NaN or ±∞ | meets nothing |
 /// | a point further from the scene than 2⁶⁸ extents | may meet nothing |
-/// | a direction of zeros, or two equal ends | is a point: it meets the polygons that contain it |
+/// | a direction of zeros, or two equal ends | is a point, and meets the polygons that contain the point |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ray {
     /// A ray from a point in a direction, without end. The direction may have any length; that length is the
@@ -161,9 +161,9 @@ impl Frustum {
     }
 
     /// Creates the region of a box, given by the box's least and largest coordinates. With a
-    /// [`Culling`](crate::Culling), orders keep the fragments whose boxes meet the region.
-    /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) finds exactly the fragments that meet the
-    /// region.
+    /// [`Culling`](crate::Culling), orders keep the [fragments](crate::Fragment) whose bounding boxes meet
+    /// the region. [`BspTree::fragments_in`](crate::BspTree::fragments_in) finds exactly the fragments that
+    /// meet the region.
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -187,7 +187,7 @@ impl Frustum {
     }
 
     /// Creates the region of the points that a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w. For a projection
-    /// matrix of OpenGL, Vulkan, Direct3D or WebGPU, this region is what the camera sees: the planes through
+    /// matrix of OpenGL, Vulkan, Direct3D or WebGPU, the camera sees exactly this region: the planes through
     /// the eye and the four sides of the picture bound it. Depth is ignored, so there is no near and no far
     /// plane.
     ///
@@ -199,7 +199,7 @@ impl Frustum {
         Self::new([w + x, w - x, w + y, w - y, w].map(|row: DVec4| (row.truncate(), -row.w)))
     }
 
-    /// Returns the planes.
+    /// Returns the planes that bound the region, each as a normal and an offset.
     pub fn planes(&self) -> &[(DVec3, f64)] {
         &self.planes
     }

@@ -47,7 +47,7 @@ impl BuildOptions {
         tree(self, polygons, &Watch::default())
     }
 
-    /// Builds the same tree as [`build`](Self::build), and reports its progress to a callback.
+    /// Builds the same tree as [`build`](Self::build), and reports the progress of the build to a callback.
     ///
     /// The callback is called at the start, about once per millisecond of work, and at the end. Any thread
     /// may call the callback, but never two threads at once: while one thread calls it, the other threads
@@ -290,9 +290,9 @@ impl BuildOptions {
     /// samples, the plane halves the longest side of the box. The cells do not depend on the order of the
     /// samples. Some cells may be empty. 0 `cells` count as 1.
     ///
-    /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, it defines the
-    /// grid to which the corners of polygons are rounded. The tolerance of these options applies to all
-    /// cells; the default depends on the extent.
+    /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, the extent
+    /// defines the [grid](BspTree::grid) to which the corners of polygons are rounded. The tolerance of these
+    /// options applies to all cells; the default depends on the extent.
     ///
     /// # Errors
     ///
@@ -377,8 +377,8 @@ impl Partition {
         prepared_in_cell(&mut faces, polygons, usize::MAX, &Watch::default())
     }
 
-    /// Returns whether a tree can be the tree of this cell: it has the partition's grid and tolerance, and
-    /// its polygons are clipped to the cell. The polygons themselves are not compared.
+    /// Returns whether a tree can be the tree of this cell: the tree has the partition's grid and tolerance,
+    /// and the tree's polygons are clipped to the cell. The polygons themselves are not compared.
     ///
     /// # Panics
     ///

@@ -24,8 +24,8 @@ use crate::tree::parts::{Parts, RawNode};
 /// Use a `FrameBuilder` if polygons move every frame and each tree is drawn once or twice, as in a compositor
 /// of layers. The trees are as exact as the trees of [`BspTree::build`], but are made for one view:
 ///
-/// - The builder spends less time on the choice of planes, so the fragments may differ.
-/// - The rounded positions of cut vertices are stored, not computed at each access.
+/// - The builder spends less time on the choice of planes, so the [fragments](crate::Fragment) may differ.
+/// - The rounded positions of vertices made by cuts are stored, not computed at each access.
 /// - The memory layout that makes [`back_to_front_into`](BspTree::back_to_front_into) fast is left out. So an
 ///   order of such a tree, or of a clone of the tree, takes a few times longer.
 ///

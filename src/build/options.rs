@@ -31,13 +31,13 @@ pub struct BuildOptions {
     /// The coplanar tolerance: a polygon counts as lying on a plane if no corner is further from the plane
     /// than this distance. Default: [`Tolerance::Default`], which depends on the precision of the polygons.
     pub tolerance: Tolerance,
-    /// The largest number of fragments of a tree, and of input polygons. More fragments or polygons are an
-    /// error. Polygons are counted while they are read, before the tree is built. Default: 2²⁵, or 33 554 432
-    /// fragments in about 5 GB. A value above 2²⁹ − 1 counts as 2²⁹ − 1. The number of polygons also has a
-    /// fixed limit of 2²⁸.
+    /// The largest number of [fragments](crate::Fragment) of a tree, and of input polygons. More fragments or
+    /// polygons are an error. Polygons are counted while they are read, before the tree is built. Default:
+    /// 2²⁵, or 33 554 432 fragments in about 5 GB. A value above 2²⁹ − 1 counts as 2²⁹ − 1. The number of
+    /// polygons also has a fixed limit of 2²⁸.
     pub max_fragments: usize,
-    /// The largest number of nodes on a path from the root. A longer path is an error. Default: unlimited; no
-    /// code recurses over the tree, so a deep tree cannot overflow the stack.
+    /// The largest number of [nodes](crate::Node) on a path from the root. A longer path is an error.
+    /// Default: unlimited; no code recurses over the tree, so a deep tree cannot overflow the stack.
     pub max_depth: usize,
     /// Two opposite corners of a box that the [grid](crate::Grid) of exact coordinates must contain, in
     /// addition to the polygons. For example: a box around everything that is later added in an
@@ -72,7 +72,8 @@ impl BuildOptions {
         self
     }
 
-    /// Sets the coplanar tolerance as a share of the scene's extent, 0 or more.
+    /// Sets the coplanar tolerance as a share, 0 or more, of the scene's extent (the longest side of the
+    /// scene's bounding box).
     #[must_use]
     pub const fn with_relative_tolerance(mut self, share: f64) -> Self {
         self.tolerance = Tolerance::Relative(share);
@@ -106,11 +107,12 @@ impl BuildOptions {
     /// The function is called once for each set of two or more pieces. If it returns `None` or a plane that
     /// does not divide the set, [`heuristic`](Self::heuristic) chooses instead. A plane does not divide the
     /// set if all pieces are on one side of the plane. A plane with an invalid piece number, axis or
-    /// coordinate counts as `None`. Whatever the function returns, the tree is exact, its build ends, and
+    /// coordinate counts as `None`. Whatever the function returns, the tree is exact, the build ends, and
     /// budgets and cancellation work.
     ///
-    /// Several threads call the function at the same time, in any order. If its result depends only on the
-    /// set, the tree is the same with any number of threads. If the function panics, so does the build.
+    /// Several threads call the function at the same time, in any order. If the function's result depends
+    /// only on the set, the tree is the same with any number of threads. If the function panics, the build
+    /// panics too.
     ///
     /// The function also chooses planes for a [`FrameBuilder`](crate::FrameBuilder) with these options, for
     /// the cells of a [`partition`](crate::partition), and when the tree is [extended](Self::extend). Files
@@ -156,9 +158,9 @@ impl Default for BuildOptions {
 /// which here are perpendicular to an axis and go through a corner of a polygon.
 ///
 /// The plane of a small polygon is less certain than the plane of a large polygon, because corners are
-/// rounded. So if the plane of a polygon would cut a larger polygon that is coplanar with it within the
-/// tolerance, every heuristic uses the plane of the larger polygon instead. Free planes may cut both
-/// polygons.
+/// rounded. Suppose that the plane of one polygon would cut a larger polygon, although the two polygons are
+/// coplanar within the [tolerance](crate::Tolerance). Then every heuristic uses the plane of the larger
+/// polygon instead. Free planes may cut both polygons.
 ///
 /// Your own heuristic has priority: [`BuildOptions::with_chooser`].
 ///
@@ -168,12 +170,12 @@ impl Default for BuildOptions {
 #[non_exhaustive]
 pub enum Heuristic {
     /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
-    /// 1980). This heuristic compares no planes, and makes up to 14 times as many fragments as heuristics
-    /// that compare planes.
+    /// 1980). This heuristic compares no planes, and makes up to 14 times as many
+    /// [fragments](crate::Fragment) as heuristics that compare planes.
     First,
     /// The plane of a random polygon; the same seed makes the same tree. The expected number of fragments is
-    /// O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient binary space
-    /// partitions for hidden-surface removal and solid modeling”, 1990).
+    /// O(n log n) for n segments in two dimensions, and O(n²) for n polygons in three dimensions (Paterson
+    /// and Yao, “Efficient binary space partitions for hidden-surface removal and solid modeling”, 1990).
     Random {
         /// Seed of the pseudo-random sequence.
         seed: u64,
@@ -189,9 +191,9 @@ pub enum Heuristic {
     /// imbalance, less a bonus for planes perpendicular to an axis. The weighted sum is from Thibault and
     /// Naylor (“Set operations on polyhedra using binary space partitioning trees”, 1987).
     Weighted {
-        /// Cost of each polygon that the plane cuts. Default 8.
+        /// Cost per polygon that the plane cuts. Default 8.
         splits: f64,
-        /// Cost of each polygon in the difference between the two sides. Default 1.
+        /// Cost per polygon of the difference between the numbers of polygons in front and behind. Default 1.
         balance: f64,
         /// Bonus, per polygon in the set, for a plane perpendicular to an axis. Default 0.
         axial: f64,
@@ -200,7 +202,7 @@ pub enum Heuristic {
     /// the level builders of id Software's games. (Fuchs, Abram and Grant, 1983, found that a few
     /// candidates are enough.)
     Sampled {
-        /// The number of planes tried at each node. Default 16.
+        /// The number of planes tried for each [node](crate::Node). Default 16.
         candidates: u32,
     },
     /// Free planes, as in a k-d tree (Bentley, “Multidimensional binary search trees used for associative
@@ -225,8 +227,8 @@ pub enum Heuristic {
     /// after the other.
     ///
     /// A [`FrameBuilder`](crate::FrameBuilder) tries polygons' planes first, which takes less time: four
-    /// planes in sets of up to 255 polygons. It accepts a plane that cuts nothing and divides the set evenly,
-    /// or a plane that cuts only one or two polygons, which cross the plane's own polygon.
+    /// planes in sets of up to 255 polygons. A `FrameBuilder` accepts a plane that cuts nothing and divides
+    /// the set evenly, or a plane that cuts only one or two polygons, which cross the plane's own polygon.
     #[default]
     Auto,
 }

@@ -32,18 +32,21 @@ const POLYGONS_AT_ONCE: usize = 16 * POLYGONS_A_THREAD;
 /// lattice. Any distance makes the same plane.
 const ARM: f64 = LATTICE_LIMIT / 2.0;
 
-/// A report on the preparation of an input's polygons.
+/// Counts of the input polygons that are dropped, triangulated or flattened before a tree is built:
+/// [`BspTree::preparation`](crate::BspTree::preparation).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Preparation {
     /// The number of input polygons.
     pub polygons: usize,
-    /// The number of polygons without area, which have no fragments: polygons with fewer than three different
-    /// corners, or with collinear corners. The count is exact after corners are rounded to the
-    /// [grid](crate::Grid). Corners that are collinear as decimal numbers may not be collinear as `f64`. In
-    /// the tree of a cell of a [partition](crate::partition), polygons outside the cell are counted too.
+    /// The number of polygons without area, which have no [fragments](crate::Fragment): polygons with fewer
+    /// than three different corners, or with collinear corners. The count is exact after corners are rounded
+    /// to the [grid](crate::Grid). Corners that are collinear as decimal numbers may not be collinear as
+    /// `f64`. In the tree of a cell of a [partition](crate::partition), polygons outside the cell are counted
+    /// too.
     pub dropped: usize,
-    /// The number of polygons that were not convex, or not planar within the tolerance, and became triangles.
+    /// The number of polygons that were not convex, or not planar within the [tolerance](crate::Tolerance),
+    /// and became triangles.
     pub triangulated: usize,
     /// The number of triangulated polygons that are self-intersecting, or whose winding number differs
     /// between inner points. The count is exact in the polygon's projection along the largest component of
@@ -66,8 +69,9 @@ pub struct Preparation {
     /// tolerance of `bent_by`, these polygons would stay whole.
     ///
     /// A polygon is counted if the corner's distance from the plane is at most 10⁻⁵ of the grid's width, or
-    /// at most the polygon's own [`precision`](crate::Polygon::precision). (The grid is one to two extents
-    /// wide. A precision above 1/256 of this width counts as 1/256.)
+    /// at most the polygon's own [`precision`](crate::Polygon::precision). (The grid is one to two times as
+    /// wide as the longest side of the scene's bounding box. A precision above 1/256 of this width counts as
+    /// 1/256.)
     pub bent: usize,
     /// The largest distance of a bent polygon's corner from the plane of the other corners, a length.
     pub bent_by: f64,

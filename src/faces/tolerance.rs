@@ -25,8 +25,8 @@ const LARGEST_ROUNDING: f64 = 1e-5;
 ///
 /// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an error. The
 /// largest tolerance is between 1/256 and 1/128 of the extent, depending on the scene; larger tolerances,
-/// infinity included, are reduced to it. [`BspTree`](crate::BspTree#which-tolerance) helps to choose a
-/// tolerance.
+/// infinity included, are reduced to this largest tolerance. [`BspTree`](crate::BspTree#which-tolerance)
+/// helps to choose a tolerance.
 ///
 /// The extent is the longest side of the bounding box of all corners. One stray vertex makes the extent
 /// larger. If stray vertices can occur, set a length.

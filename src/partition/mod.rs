@@ -63,7 +63,7 @@ use crate::viewpoint::Viewpoint;
 /// The planes between cells cut polygons exactly, like the planes of a tree. If such a plane cuts a polygon,
 /// the parts of the polygon on both sides have bit for bit the same vertices on the plane. If the plane cuts
 /// two polygons through a common edge, both polygons have the same vertex there, unless the tolerance moved a
-/// corner of one of them. As in one tree, the cuts inside cells can end in
+/// corner of one of the two polygons. As in one tree, the cuts inside cells can end in
 /// [T-junctions](crate::BspTree#t-junctions).
 ///
 /// All cells have the same [grid](crate::BspTree::grid) and tolerance. So a polygon that is triangulated or
@@ -82,7 +82,7 @@ use crate::viewpoint::Viewpoint;
 /// # Trees of cells
 ///
 /// The tree of a cell returns orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
-/// It differs from other trees in these respects:
+/// The tree of a cell differs from other trees in these respects:
 ///
 /// - Winding numbers, drawings, and the depth buffers of `raster` and `verify` need whole polygons. They do
 ///   not work with the tree of a cell.
@@ -286,9 +286,9 @@ impl Partition {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// The least coordinates; ∞ if there is no corner, NaN if a coordinate is infinite or NaN.
+    /// The least coordinates of corners; ∞ if there is no corner, NaN if a coordinate is infinite or NaN.
     pub low: DVec3,
-    /// The largest coordinates; −∞ if there is no corner.
+    /// The largest coordinates of corners; −∞ if there is no corner.
     pub high: DVec3,
     /// The largest [`precision`](Polygon::precision) of the polygons.
     pub precision: f64,

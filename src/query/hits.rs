@@ -268,8 +268,9 @@ impl<'t> Hit<'t> {
     }
 
     /// Returns the point of the hit, rounded like a fragment's vertices: the error of each coordinate is at
-    /// most 2⁻⁵¹ of the scene's extent plus one step of `f64`. This bound holds however far away the ray
-    /// begins and however small the angle between the ray and the polygon.
+    /// most 2⁻⁵¹ of the scene's extent (the longest side of the scene's bounding box) plus one
+    /// [step](BspTree#which-tolerance) of `f64`. This bound holds however far away the ray begins and however
+    /// small the angle between the ray and the polygon.
     ///
     /// Each call computes the point, in about 0.2 µs.
     pub fn point(&self) -> DVec3 {
@@ -289,8 +290,8 @@ impl<'t> Hit<'t> {
 
     /// Returns three points p, q and r of the tree's [grid](BspTree::grid) that define the hit's point
     /// exactly: the hit is the point where the ray meets the plane through p, q and r. Usually this plane is
-    /// the fragment's plane. For a ray in the fragment's plane, it is a plane through an edge of the
-    /// fragment.
+    /// the fragment's plane. For a ray in the fragment's plane, the plane through p, q and r is another
+    /// plane, which contains an edge of the fragment.
     ///
     /// `None` if the hit's point is an end of the ray inside the polygon. That end is the start if
     /// [`parameter`](Self::parameter) is 0.
@@ -423,9 +424,9 @@ impl BspTree {
     /// ```
     ///
     /// The test is exact. A polygon also blocks the segment if only an edge or a corner of the polygon
-    /// touches the segment. A polygon seen edge-on, such as a floor, blocks a segment that lies in it. If an
-    /// eye should see along a floor, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is
-    /// not [`Facing::EdgeOn`].
+    /// touches the segment. A polygon seen edge-on, such as a floor, blocks a segment that lies in the
+    /// polygon. If an eye should see along a floor, look for [`hits`](Self::hits) whose
+    /// [`facing`](crate::Hit::facing) is not [`Facing::EdgeOn`].
     ///
     /// The search stops at the first polygon found, which need not be the nearest. The time is proportional
     /// to the number of boxes that the segment crosses before that polygon. The first call computes the

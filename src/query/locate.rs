@@ -10,7 +10,7 @@ use crate::exact::eye::ExactRay;
 use crate::tree::{BspTree, Child, Node};
 use crate::viewpoint::Ray;
 
-/// The place of a point in a tree: [`BspTree::locate`].
+/// The leaf of a tree that contains a point, and the partition planes through the point: [`BspTree::locate`].
 ///
 /// Two locations are equal if they have the same leaf and the same planes.
 #[derive(Clone, Debug)]

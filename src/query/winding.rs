@@ -72,8 +72,8 @@ impl BspTree {
 
     /// Returns the open edges of bodies, in the order of polygons: the index of the polygon, and the number
     /// of the corner where the edge begins. An edge is *open* if, along some part of the edge, more edges of
-    /// polygons run in its direction than in the opposite direction. In a closed body, no edge is open. The
-    /// first call takes O(n log n) time and stores the result.
+    /// polygons run in the direction of the open edge than in the opposite direction. In a closed body, no
+    /// edge is open. The first call takes O(n log n) time and stores the result.
     pub fn open_edges(&self) -> impl ExactSizeIterator<Item = (usize, usize)> {
         self.open_edges_of_faces().iter().map(|&[face, k]| {
             (self.faces.polygon(face), self.faces.corner_number(face, k) as usize)

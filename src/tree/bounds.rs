@@ -65,7 +65,7 @@ impl BspTree {
 impl Node<'_> {
     /// Returns the bounding box `[low, high]` of all fragments of the node's subtree, in the polygons' unit.
     /// Each side of the box is rounded outwards, by at most 2⁻²³ of the scene's extent (the longest side of
-    /// its bounding box) plus three steps of `f64`.
+    /// the scene's bounding box) plus three [steps](BspTree#which-tolerance) of `f64`.
     ///
     /// The first call computes the boxes of the whole tree in O(n) time ([`BspTree::bounds`]). Later calls
     /// take constant time.

@@ -166,10 +166,11 @@ use crate::faces::Preparation;
 ///
 /// # Exactness
 ///
-/// The corners are rounded once, to a grid of 2⁻⁵² of the scene's extent (the longest side of its bounding
-/// box). After this rounding, every decision is exact, however often a polygon is cut. Only the vertices that
-/// you read are rounded again, to `f64`; no decision uses them. [`grid`](Self::grid) and the `grid_points` of
-/// nodes, fragments and hits return the exact numbers.
+/// The corners are rounded once, to a grid. The rounding changes each coordinate by at most 2⁻⁵² of the
+/// scene's extent (the longest side of the scene's bounding box). After this rounding, every decision is
+/// exact, however often a polygon is cut. Only the vertices that you read are rounded again, to `f64`; no
+/// decision uses them. [`grid`](Self::grid) and the `grid_points` of nodes, fragments and hits return the
+/// exact numbers.
 ///
 /// The order is right up to the coplanar tolerance τ, a length
 /// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). A polygon that reaches across a partition
@@ -203,7 +204,8 @@ use crate::faces::Preparation;
 /// Too small: polygons that were meant to be coplanar cut each other into slivers, and quads bent by rounding
 /// are triangulated. Too large: layers that were meant to be apart are painted in input order.
 ///
-/// Three counts show the effect of the tolerance, each with the largest distance of a corner from its plane:
+/// Three counts show the effect of the tolerance. Each count comes with the largest distance of a corner from
+/// the plane of the polygon or, for the third count, from the partition plane:
 ///
 /// | count | counts |
 /// |---|---|
@@ -426,20 +428,20 @@ pub struct Stats {
     /// The number of faces: polygons with area, where a triangulated polygon counts once for each triangle
     /// ([`BspTree::face_count`]).
     pub faces: usize,
-    /// The number of fragments in the tree.
+    /// The number of [fragments](crate::Fragment) in the tree.
     pub fragments: usize,
-    /// The number of partition planes.
+    /// The number of [nodes](crate::Node), each of which has one partition plane.
     pub nodes: usize,
     /// The largest number of nodes on a path from the root.
     pub depth_max: usize,
     /// The mean number of nodes on the path from the root to a fragment, over all fragments.
     pub depth_mean: f64,
-    /// The number of times that the builder cut a piece in two.
+    /// The number of cuts. Each cut divides a face, or a part of a face, in two.
     pub splits: usize,
-    /// The size of the tree in bytes, including the boxes if a query has computed them:
-    /// [`BspTree::memory_usage`].
+    /// The size of the tree in bytes ([`BspTree::memory_usage`]), including the [bounding
+    /// boxes](BspTree::bounds) if a query has computed the boxes.
     pub bytes: usize,
-    /// The coplanar tolerance that the tree was built with, a length.
+    /// The coplanar [tolerance](BspTree#exactness) that the tree was built with, a length.
     pub tolerance: f64,
     /// The number of faces that are treated as lying on a partition plane, although a corner is off that
     /// plane by a distance within the tolerance. The faces on one partition plane are painted in input order.

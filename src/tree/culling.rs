@@ -14,7 +14,7 @@ use crate::bits::bits;
 use crate::exact::{Plane, PlaneId};
 use crate::viewpoint::{Facing, Frustum, Viewpoint};
 
-/// The fragments that an order leaves out: [`Order::culled`](crate::Order::culled).
+/// The [fragments](crate::Fragment) that an order leaves out: [`Order::culled`](crate::Order::culled).
 ///
 /// ```
 /// use binspace::glam::DVec3;
@@ -44,9 +44,10 @@ impl Culling {
     /// 32 planes are used. The test is fast, but keeps some fragments outside the frustum;
     /// [`BspTree::fragments_in`] is exact, but slower.
     ///
-    /// The test enlarges each box by about 10⁻⁶ of the scene's extent (the longest side of its bounding box)
-    /// plus 10⁻¹⁵ of the largest coordinate. This margin is larger than the rounding error of the test. If
-    /// the frustum's planes meet in the eye, the margin is also larger than the rounding error of that point.
+    /// The test enlarges each box by about 10⁻⁶ of the scene's extent (the longest side of the scene's
+    /// bounding box) plus 10⁻¹⁵ of the largest coordinate. This margin is larger than the rounding error of
+    /// the test. If the frustum's planes meet in the eye, the margin is also larger than the rounding error
+    /// of the eye.
     #[must_use]
     pub fn with_frustum(self, frustum: Frustum) -> Self {
         Self { frustum, ..self }

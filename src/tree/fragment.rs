@@ -13,7 +13,8 @@ use crate::error::{Error, Kind};
 use crate::exact::{EdgeLine, Eye, Faces, PlaneId, PlaneKind, StoredVertex, VertexId, integers};
 use crate::viewpoint::{Facing, Viewpoint};
 
-/// A convex piece of a polygon, or the whole polygon.
+/// A convex piece of a polygon, or the whole polygon. The manual states [which planes](BspTree#contents) cut
+/// polygons into pieces.
 #[derive(Clone, Copy)]
 pub struct Fragment<'t> {
     pub(crate) faces: &'t Faces,
@@ -111,9 +112,9 @@ impl<'t> Fragment<'t> {
     /// front.
     ///
     /// The polygon's corners are rounded to the tree's [grid](BspTree::grid), and moved onto the polygon's
-    /// plane if they were off the plane by less than the tolerance. The vertices made by cuts are rounded:
-    /// the error of each coordinate is at most 2⁻⁵¹ of the scene's extent (the longest side of its bounding
-    /// box) plus one step of `f64`.
+    /// plane if they were off the plane by less than the [tolerance](BspTree#exactness). The vertices made by
+    /// cuts are rounded: the error of each coordinate is at most 2⁻⁵¹ of the scene's extent (the longest side
+    /// of the scene's bounding box) plus one [step](BspTree#which-tolerance) of `f64`.
     ///
     /// Two fragments of one polygon that share a vertex return the same bits for that vertex. Exception: if
     /// three cuts meet in the vertex, the coordinates may differ by one rounding.
@@ -278,7 +279,7 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
     faces.plane(PlaneId::face(face)).facing(eye)
 }
 
-/// The grid that a tree's corners lie on: [`BspTree::grid`].
+/// The grid to which a tree rounds the corners of polygons: [`BspTree::grid`].
 ///
 /// A grid point is three integers g. The position of the grid point in the polygons' unit is
 /// `base + g * 2^exponent`. This position is exact, except in scenes smaller than about 10⁻²⁹⁰ or further
@@ -305,7 +306,7 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 pub struct Grid {
     /// The position of the grid point (0, 0, 0).
     pub base: DVec3,
-    /// The grid's step is two to this power.
+    /// The step of the grid is 2 to this power, in the polygons' unit.
     pub exponent: i32,
 }
 
@@ -360,8 +361,8 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 ///
 /// The weights are a sparse matrix in the form of compressed sparse rows (CSR). The matrix maps attributes of
 /// corners to attributes of vertices. It has a row for each vertex, and a column for each corner of all
-/// polygons. The column of a corner is its number in `weight_corners` plus the number of corners of all
-/// earlier polygons:
+/// polygons. The column of a corner is the corner's number in the polygon, as in `weight_corners`, plus the
+/// number of corners of all earlier polygons:
 ///
 /// ```
 /// use binspace::BspTree;

@@ -17,7 +17,7 @@ use survey::{FragmentEdge, Node, OutlineVertex, Points, Survey, coordinate, ends
 
 pub use triangles::Triangles;
 
-/// The fragments of a tree as vertices and triangles, for a renderer's buffers.
+/// The [fragments](crate::Fragment) of a tree as vertices and triangles, for a renderer's buffers.
 ///
 /// [`BspTree::mesh`] and [`BspTree::welded_mesh`] make a mesh, which is stored separately from the tree.
 /// Upload the mesh's vertices once. Every frame, write the indices in the order of the viewpoint
@@ -86,7 +86,8 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MeshVertex<'m> {
-    /// The number of the vertex's point. All polygons that meet at the point share this number.
+    /// The number of the vertex's [point](Mesh#points-and-vertices). All polygons that meet at the point
+    /// share this number.
     pub point: u32,
     /// The position of the vertex's point.
     pub position: DVec3,
@@ -98,7 +99,7 @@ pub struct MeshVertex<'m> {
 }
 
 impl MeshVertex<'_> {
-    /// Interpolates an attribute, given its value at each of the polygon's corners.
+    /// Interpolates an attribute, given the attribute's value at each of the polygon's corners.
     pub fn interpolate(&self, attribute: impl Fn(usize) -> f64) -> f64 {
         self.weights.iter().map(|&(corner, weight)| weight * attribute(corner as usize)).sum()
     }
@@ -118,7 +119,8 @@ impl BspTree {
     }
 
     /// Returns a [`mesh`](Self::mesh) without T-junctions. If several polygons share an edge, and one of them
-    /// has a vertex inside the edge, all of them have that vertex. So have fragments on both sides of a cut.
+    /// has a vertex inside the edge, all of these polygons have that vertex. Fragments of one polygon on the
+    /// two sides of a cut also have the same vertices along the cut.
     ///
     /// Takes O(n log n) time for n vertices, including the inserted vertices. (If m polygons share one edge,
     /// and each polygon is cut at other places, about m² vertices are inserted.)
@@ -179,9 +181,10 @@ impl Mesh {
 
     /// Returns the position of each point.
     ///
-    /// Corners are at their given positions, rounded to the grid, even if the tolerance moved them in the
-    /// tree. Other points are rounded: the error of each coordinate is at most 2⁻⁵¹ of the scene's extent
-    /// plus one step of `f64`.
+    /// Corners are at their given positions, rounded to the [grid](BspTree::grid), even if the
+    /// [tolerance](BspTree#exactness) moved the corners in the tree. Other points are rounded: the error of
+    /// each coordinate is at most 2⁻⁵¹ of the scene's extent (the longest side of the scene's bounding box)
+    /// plus one [step](BspTree#which-tolerance) of `f64`.
     pub fn positions(&self) -> &[DVec3] {
         &self.parts.positions
     }

@@ -15,7 +15,8 @@ use crate::exact::{Eye, PlaneId, PlaneKind};
 use crate::memory::reserve;
 use crate::viewpoint::{Facing, Viewpoint};
 
-/// A node of a tree: a partition plane, the fragments on the plane, and the two sides of the plane.
+/// A node of a tree: a [partition plane](BspTree#contents), the [fragments](crate::Fragment) on the plane,
+/// and the two sides of the plane.
 ///
 /// [`BspTree::root`] and [`front`](Self::front) return single nodes, and [`BspTree::nodes`] all nodes.
 /// [`Order::walk`](crate::Order::walk) visits nodes in the order of a viewpoint. A node is as cheap to copy
@@ -42,7 +43,8 @@ pub struct Node<'t> {
 pub enum Child<'t> {
     /// Another node.
     Node(Node<'t>),
-    /// A leaf: the number of its fragment as a range, or an empty range if the leaf has no fragment.
+    /// A [leaf](BspTree::locate), which no partition plane divides: the number of the leaf's fragment as a
+    /// range, or an empty range if the leaf has no fragment.
     Leaf(Range<u32>),
 }
 
@@ -58,7 +60,7 @@ impl<'t> Node<'t> {
         self.depth as usize
     }
 
-    /// Returns the unit normal, which points to the front.
+    /// Returns the unit normal of the plane. The normal points to the front.
     pub fn normal(&self) -> DVec3 {
         fragment::unit_normal(&self.tree.faces, self.plane())
     }
@@ -79,7 +81,7 @@ impl<'t> Node<'t> {
     /// polygon was triangulated, the plane is the plane of one of the triangles.
     ///
     /// `None` if the builder chose a plane perpendicular to an axis instead. The `normal` and the `offset` of
-    /// such a plane are exact, up to the rounding of a corner to the grid.
+    /// such a plane are exact, up to the rounding of a corner to the [grid](BspTree::grid).
     pub fn polygon(&self) -> Option<usize> {
         match self.plane().kind() {
             PlaneKind::Face(face) => Some(self.tree.faces.polygon(face)),
@@ -100,7 +102,8 @@ impl<'t> Node<'t> {
         self.tree.faces.plane(self.plane()).facing(&eye).into()
     }
 
-    /// Returns the numbers of the fragments of the whole subtree: on the plane, in front and behind.
+    /// Returns the numbers of the fragments of the whole subtree: on the plane, in front of the plane and
+    /// behind.
     pub fn fragments(&self) -> Range<u32> {
         self.first..self.end
     }
@@ -110,12 +113,12 @@ impl<'t> Node<'t> {
         self.ranges().own
     }
 
-    /// Returns the numbers of all fragments in front, down to the leaves.
+    /// Returns the numbers of all fragments in front of the plane, down to the leaves.
     pub fn in_front(&self) -> Range<u32> {
         self.ranges().front
     }
 
-    /// Returns the numbers of all fragments behind, down to the leaves.
+    /// Returns the numbers of all fragments behind the plane, down to the leaves.
     pub fn behind(&self) -> Range<u32> {
         self.ranges().back
     }

@@ -57,7 +57,7 @@ impl BspTree {
     /// |---|---|---|
     /// | kind | 12 bytes | `binspacetree` |
     /// | version | `u32` | 3 |
-    /// | flags | `u32` | the sum of 1 for a tree of a `FrameBuilder` and 2 for a tree of a cell |
+    /// | flags | `u32` | the sum of 1 for a tree of a `FrameBuilder` and 2 for a tree of a [cell](crate::partition) |
     /// | grid | `i32` | the exponent e |
     /// | | 3 `f64` | the origin o |
     /// | | 3 `f64` | the far coordinates f; a point x of the scene has the grid coordinates (x − f) · 2ᵉ − o |
@@ -67,8 +67,8 @@ impl BspTree {
     /// | | 3 `i64` each | the corners of all faces, face by face |
     /// | numbered faces | list of `u32` | the faces whose *corner numbers* are stored; the corner numbers of any other face are 0, 1, 2, … |
     /// | corner numbers | `u32` each | for each corner of the numbered faces, face by face: the *corner number* |
-    /// | moved corners | list of `u32` and 3 `i64` | the *corner index* of a corner that was moved onto the plane of its face, and the corner's position before |
-    /// | dropped polygons | list of `u32` | the indices of the polygons without area, and of those outside the cell |
+    /// | moved corners | list of `u32` and 3 `i64` | the *corner index* of a corner that was moved onto the plane of its face, and the corner's position before the move |
+    /// | dropped polygons | list of `u32` | the indices of the polygons without area, and of the polygons outside the cell |
     /// | counts | 4 `u64` | `triangulated`, `crossing`, `flattened` and `bent` of the [`Preparation`](crate::Preparation) |
     /// | distances | 2 `f64` | `flattened_by` and `bent_by` of the `Preparation` |
     /// | nodes | list of 2 `u32` | the *plane* and the *sides* of each node; depth first, the front before the back |
@@ -80,8 +80,8 @@ impl BspTree {
     ///
     /// | number | bits | content |
     /// |---|---|---|
-    /// | frame | 0–14 | the third corner of the triangle that spans the plane; corner 0 is its first |
-    /// | | 15–29 | its second corner |
+    /// | frame | 0–14 | the third corner of the triangle that spans the plane; corner 0 is the first corner of this triangle |
+    /// | | 15–29 | the second corner of the same triangle |
     /// | | 30–31 | the axis along which corners were moved; 3 if none was moved |
     /// | corner number | 0–30 | the number of the corner in its polygon |
     /// | | 31 | 1 if the edge to the next corner is not an edge of the polygon |

@@ -1,5 +1,5 @@
-//! Compares a tree's picture with a depth buffer's picture, and the forms of an order with each other. No
-//! other module uses both the tree and its independent check.
+//! Compares a tree's picture with a depth buffer's picture, and the list of an order with the iterator. No
+//! other module uses both the tree and the independent depth buffer.
 
 use crate::Error;
 
@@ -19,9 +19,10 @@ use crate::viewpoint::Viewpoint;
 pub struct Verification {
     /// The rays of both pictures.
     pub rays: Rays,
-    /// The fragments painted over each other, back to front.
+    /// The [fragments](crate::Fragment) painted over each other, back to front.
     pub painted: Image,
-    /// The nearest face in every pixel, by a depth buffer that uses the faces but not the tree.
+    /// The nearest [face](crate::BspTree#contents) in every pixel, by a depth buffer that uses the faces but
+    /// not the tree.
     pub truth: DepthImage,
     /// The differences between `painted` and `truth`.
     pub comparison: Comparison,
@@ -31,7 +32,8 @@ pub struct Verification {
     /// The number of pixels in which a face that covers the pixel is not painted exactly once, even if the
     /// face is hidden. Such an error would be visible if the faces were transparent.
     pub miscounted: usize,
-    /// An error if an order does not list every fragment once, or is not the same in all forms.
+    /// An error if an order does not list every fragment once, if the list and the iterator have different
+    /// orders, or if front to back is not the reverse of back to front.
     pub orders: Result<(), String>,
 }
 
@@ -58,8 +60,8 @@ impl Verification {
 /// With a tolerance of 0, only the first case is contested.
 ///
 /// This rule is stricter than [`compare`](crate::raster::compare), which does not use the partition planes.
-/// For example, `compare` contests two layers less than 2 τ apart. `verify` does not contest them if a
-/// partition plane separates them exactly.
+/// For example, `compare` contests two layers less than 2 τ apart. `verify` does not contest the two layers
+/// if a partition plane separates them exactly.
 ///
 /// ```
 /// use binspace::verify::verify;

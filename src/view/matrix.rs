@@ -41,7 +41,7 @@ impl Camera {
     /// row of z: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
     ///
     /// Mirrored pictures are an error. In a mirrored picture, the directions right, up and towards the viewer
-    /// are left-handed. This has two common causes:
+    /// are left-handed. Mirrored pictures have two common causes:
     ///
     /// - y points down, as in Vulkan: negate the second row of the matrix.
     /// - One axis is inverted, as in some plots: negate the first row, and mirror the drawing (x becomes

@@ -210,9 +210,9 @@ impl Camera {
         self.forward
     }
 
-    /// Returns the width and the height of a pixel, as lengths in the world. For a perspective camera, they
-    /// are the lengths at distance 1 from the eye. Width and height are equal, unless the camera was made
-    /// from a matrix.
+    /// Returns the width and the height of a pixel, as lengths in the world. For a perspective camera, these
+    /// lengths are measured at distance 1 from the eye. Width and height are equal, unless the camera was
+    /// made from a matrix.
     pub fn pixel_size(&self) -> [f64; 2] {
         let span = match self.projection {
             Projection::Perspective { half_height, .. } => 2.0 * half_height,
@@ -292,7 +292,8 @@ impl Camera {
     ///
     /// The borders are half a pixel outside the centres of the outermost pixels. So, although the camera's
     /// numbers are rounded, the region contains the rays through all pixels' centres. (Exception: a pixel is
-    /// smaller than 2⁻³⁰ of its distance or, for a parallel camera, of the scene.)
+    /// smaller than 2⁻³⁰ of the pixel's distance from the eye or, for a parallel camera, of the scene's
+    /// size.)
     pub fn frustum(&self) -> Frustum {
         let ([half_width, half_height], [x, y]) = (self.half_size(), self.rows());
         let (origin, ahead) = (self.origin(), self.forward);
@@ -316,7 +317,8 @@ impl Camera {
     /// Clips a convex polygon to the picture. Returns the corners of the visible part, in pixels. The list is
     /// empty if no part of the polygon is in the picture.
     ///
-    /// If two polygons share an edge, the ends of the clipped edge are the same for both, up to rounding.
+    /// If two polygons share an edge, the ends of the clipped edge are the same for both polygons, up to
+    /// rounding.
     pub fn clip(&self, polygon: &[DVec3]) -> Vec<[f64; 2]> {
         let mut here: Vec<DVec3> = polygon.iter().map(|&point| self.homogeneous(point)).collect();
         let furthest = here.iter().fold(0.0f64, |max, vertex| max.max(vertex.z));

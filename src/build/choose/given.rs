@@ -12,8 +12,8 @@ use crate::build::piece::Division;
 use crate::exact::{Faces, PlaneId, Side};
 use crate::progress::Watch;
 
-/// A set of two or more pieces of polygons that a build divides by a plane: the input of your own heuristic,
-/// [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser).
+/// A set of two or more pieces of polygons that the builder divides by a plane: the input of your own
+/// heuristic, [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser).
 ///
 /// Each piece has a number below [`piece_count`](Self::piece_count). A piece is a convex part of a polygon,
 /// already cut by the planes that separated this set from the rest of the scene. (Polygons that are not
@@ -22,7 +22,7 @@ use crate::progress::Watch;
 ///
 /// # Panics
 ///
-/// All methods that take a piece number panic if it is not below [`piece_count`](Self::piece_count).
+/// All methods that take a piece number panic if the number is not below [`piece_count`](Self::piece_count).
 #[derive(Clone, Copy, Debug)]
 pub struct PieceSet<'a> {
     set: &'a Set<'a>,
@@ -36,11 +36,12 @@ pub enum SplitPlane {
     /// The plane of a piece, given by the piece's number. The piece lies on its plane, so this plane always
     /// divides the set.
     OfPiece(usize),
-    /// A plane perpendicular to an axis. Its front is the side of larger coordinates.
+    /// A plane perpendicular to an axis. The plane's front is the side of larger coordinates.
     ///
     /// Every plane of a tree goes through a corner of a polygon. So the build moves this plane along the axis
     /// to the corner nearest to `coordinate`. All corners of all polygons count, at their positions after
-    /// rounding to the grid and flattening within the tolerance.
+    /// rounding to the [grid](crate::BspTree::grid) and [flattening](crate::Preparation::flattened) within
+    /// the tolerance.
     Axis {
         /// 0, 1 or 2 for x, y or z.
         axis: usize,
@@ -55,7 +56,8 @@ impl<'a> PieceSet<'a> {
         self.set.len()
     }
 
-    /// Returns the number of planes that have already separated the pieces from others: 0 at the root.
+    /// Returns the number of planes that have already separated the pieces of this set from other pieces: 0
+    /// at the root.
     pub fn depth(&self) -> usize {
         self.set.depth
     }

@@ -7,8 +7,8 @@ use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
 
-/// Triangles of a tree's fragments. Each triangle has three vertices of a [`Mesh`](crate::mesh::Mesh), and
-/// each fragment has one range of indices.
+/// Triangles of a tree's [fragments](crate::Fragment). Each triangle has three vertices of a
+/// [`Mesh`](crate::mesh::Mesh), and each fragment has one range of indices.
 ///
 /// [`Mesh::triangles`](crate::mesh::Mesh::triangles) returns the triangles of all fragments.
 /// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) returns the triangles of some polygons, such as
@@ -161,10 +161,10 @@ impl Triangles {
         Ok(count)
     }
 
-    /// Writes the indices of a tree's fragments and of an overlay's pieces in one common order, such as a
-    /// list from [`OverlayOrder::write_into`](crate::overlay::OverlayOrder::write_into), and returns the
-    /// number of indices. `pieces` are triangles of
-    /// [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
+    /// Writes the indices of a tree's fragments and of an [overlay](crate::overlay::Overlay)'s pieces of
+    /// polygons in one common order, such as a list from
+    /// [`OverlayOrder::write_into`](crate::overlay::OverlayOrder::write_into), and returns the number of
+    /// indices. `pieces` are triangles of [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
     ///
     /// The written indices assume one vertex buffer: first the vertices of the tree's mesh, then the vertices
     /// of the overlay's mesh. Lines and points in the order have no triangles. After each

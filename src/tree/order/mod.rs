@@ -14,7 +14,7 @@ use crate::viewpoint::Viewpoint;
 use eye::View;
 use layout::{Chain, FRAGMENTS, Inner, NEXT, NODES, OrderLayout, ROOT, Span};
 
-/// The order of a tree's fragments for one viewpoint: [`BspTree::order`].
+/// The order of a tree's [fragments](Fragment) for one viewpoint: [`BspTree::order`].
 ///
 /// Back to front by default; see [`front_to_back`](Self::front_to_back). Write the order into a list of
 /// numbers, iterate over its fragments, or walk its subtrees:
@@ -67,8 +67,8 @@ impl<'t> Order<'t> {
         Self { is_front_to_back: true, ..self }
     }
 
-    /// Leaves out the fragments that are outside a frustum or show the wrong side. The other fragments keep
-    /// their order.
+    /// Leaves out the fragments that are outside the frustum of `culling` or do not show the side that
+    /// `culling` keeps. The other fragments keep their order.
     pub fn culled(self, culling: &'t Culling) -> Self {
         Self { culling: Some(culling), ..self }
     }
@@ -76,13 +76,13 @@ impl<'t> Order<'t> {
     /// Replaces a buffer's contents by the numbers of the fragments.
     ///
     /// Takes O(n) time. The buffer also serves as working space: its capacity usually grows to one or two
-    /// numbers per fragment, and to at most four per fragment plus sixteen. Once the buffer is large enough,
-    /// nothing is allocated.
+    /// numbers per fragment, and to at most four numbers per fragment plus sixteen. Once the buffer is large
+    /// enough, nothing is allocated.
     ///
     /// A [culled](Self::culled) order skips subtrees outside the frustum and subtrees seen only from the
-    /// wrong side. Its time is proportional to the number of remaining fragments plus the number of fragments
-    /// close to the frustum's boundary. It allocates O(depth) memory, plus a bit for each fragment and for
-    /// each block of 16 fragments.
+    /// wrong side. The time of a culled order is proportional to the number of remaining fragments plus the
+    /// number of fragments close to the frustum's boundary. The call then allocates O(depth) memory, plus a
+    /// bit for each fragment and for each block of 16 fragments.
     ///
     /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) converts the list into indices of
     /// triangles.
@@ -193,27 +193,27 @@ impl<'t> IntoIterator for Order<'t> {
     }
 }
 
-/// A subtree or fragment visited by a walk: [`Order::walk`].
+/// A [subtree](Node) or [fragment](Fragment) visited by a walk: [`Order::walk`].
 #[derive(Clone, Copy, Debug)]
 pub enum Part<'t> {
-    /// A subtree, before its own parts.
+    /// A subtree. The walk visits a subtree before the subtree's own fragments and subtrees.
     Subtree(Node<'t>),
-    /// A fragment, in its place in the order.
+    /// A fragment. The walk visits fragments in the order of the viewpoint.
     Fragment(Fragment<'t>),
 }
 
 /// The result of the caller's function in a walk ([`Order::walk`]): how the walk continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow<B = ()> {
-    /// Enter the subtree. After a fragment: continue with the next part.
+    /// Enter the subtree. After a fragment: continue with the next [part](Part).
     Descend,
-    /// Skip the subtree. After a fragment: continue with the next part.
+    /// Skip the subtree. After a fragment: continue with the next [part](Part).
     Skip,
-    /// End the walk and return the value.
+    /// End the walk, which then returns this value.
     Break(B),
 }
 
-/// The fragments of a tree in an [`Order`].
+/// Iterates over the [fragments](Fragment) of a tree in an [`Order`].
 ///
 /// This iterator can be read from both ends. Reading all n fragments takes O(n) time and O(depth) memory. A
 /// [culled](Order::culled) order is written into a list before the first fragment is returned.
