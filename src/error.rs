@@ -144,7 +144,7 @@ pub enum ErrorKind {
     /// A build or a call reached a limit set in [`BuildOptions`](crate::BuildOptions). A larger limit or
     /// another heuristic may succeed.
     OverBudget,
-    /// The polygons, the tree, its layout or its mesh do not fit into memory.
+    /// The polygons, the tree, the tree's layout in memory or a mesh does not fit into memory.
     ///
     /// Other allocations, such as the lists of drawings, overlays and boxes, do not return this error: if
     /// such an allocation fails, the program aborts, like other Rust programs. An operating system that

@@ -50,8 +50,8 @@ impl BuildOptions {
     /// Builds the same tree as [`build`](Self::build), and reports the progress of the build to a callback.
     ///
     /// The callback is called at the start, about once per millisecond of work, and at the end. Any thread
-    /// may call the callback, but never two threads at once: while one thread calls it, the other threads
-    /// continue their work. So the callback may be slow, and may use the same thread pool.
+    /// may call the callback, but never two threads at once: while one thread calls the callback, the other
+    /// threads continue to build. So the callback may be slow, and may use the same thread pool.
     ///
     /// If the callback returns [`ControlFlow::Break`], the build is cancelled: the build then ends within
     /// milliseconds, or within tenths of a second for scenes of some 100 000 polygons. At the end of a build,
@@ -285,10 +285,10 @@ impl BuildOptions {
     /// Divides a scene into cells, each with about the same number of samples. Samples are points, such as
     /// one corner of every polygon, or of some polygons. Takes O(n log cells) time for n samples.
     ///
-    /// The cells are the leaves of a k-d tree. Each plane goes through one of the samples in its box, and is
-    /// perpendicular to the axis along which these samples extend furthest. If a box has no two different
-    /// samples, the plane halves the longest side of the box. The cells do not depend on the order of the
-    /// samples. Some cells may be empty. 0 `cells` count as 1.
+    /// The cells are the leaves of a k-d tree. Each plane goes through one of the samples in the box that the
+    /// plane divides, and is perpendicular to the axis along which these samples extend furthest. If a box
+    /// has no two different samples, the plane halves the longest side of the box. The cells do not depend on
+    /// the order of the samples. Some cells may be empty. 0 `cells` count as 1.
     ///
     /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, the extent
     /// defines the [grid](BspTree::grid) to which the corners of polygons are rounded. The tolerance of these

@@ -104,10 +104,10 @@ impl BuildOptions {
     /// Sets your own heuristic: a function that chooses the plane that divides a [set of
     /// pieces](crate::choose::PieceSet). A piece is a part of a polygon.
     ///
-    /// The function is called once for each set of two or more pieces. If it returns `None` or a plane that
-    /// does not divide the set, [`heuristic`](Self::heuristic) chooses instead. A plane does not divide the
-    /// set if all pieces are on one side of the plane. A plane with an invalid piece number, axis or
-    /// coordinate counts as `None`. Whatever the function returns, the tree is exact, the build ends, and
+    /// The function is called once for each set of two or more pieces. If the function returns `None` or a
+    /// plane that does not divide the set, [`heuristic`](Self::heuristic) chooses instead. A plane does not
+    /// divide the set if all pieces are on one side of the plane. A plane with an invalid piece number, axis
+    /// or coordinate counts as `None`. Whatever the function returns, the tree is exact, the build ends, and
     /// budgets and cancellation work.
     ///
     /// Several threads call the function at the same time, in any order. If the function's result depends

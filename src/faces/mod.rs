@@ -50,7 +50,7 @@ pub struct Preparation {
     pub triangulated: usize,
     /// The number of triangulated polygons that are self-intersecting, or whose winding number differs
     /// between inner points. The count is exact in the polygon's projection along the largest component of
-    /// its area vector. The triangles of such a polygon depend on its edges:
+    /// the polygon's area vector. The triangles of such a polygon depend on its edges:
     ///
     /// - If edges meet only at corners, the triangles cover every point with a nonzero winding number.
     /// - If edges cross, each pair of crossing edges is replaced by two edges between the same four ends that

@@ -40,7 +40,7 @@ pub enum Tolerance {
     /// |---|---|
     /// | `f64` | 10⁻⁹ of the extent |
     /// | `f32` | four steps of the largest coordinate: between 2·10⁻⁷ and 5·10⁻⁷ of the extent |
-    /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, wherever the scene lies |
+    /// | a scene read from an OBJ file | four units in the last decimal that the file's coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, wherever the scene lies |
     ///
     /// Far from the origin, `f32` and `f64` have coarser steps. There the default is four steps of the
     /// largest coordinate, even if this length exceeds 10⁻⁵ of the extent. For `f64`, the default exceeds

@@ -84,8 +84,8 @@ use crate::viewpoint::Viewpoint;
 /// The tree of a cell returns orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
 /// The tree of a cell differs from other trees in these respects:
 ///
-/// - Winding numbers, drawings, and the depth buffers of `raster` and `verify` need whole polygons. They do
-///   not work with the tree of a cell.
+/// - Winding numbers, drawings, and the depth buffers of `raster` and `verify` need whole polygons. So these
+///   features do not work with the tree of a cell.
 /// - The [`dropped`](crate::BspTree::dropped) polygons include the polygons outside the cell.
 /// - The other counts of the tree's [preparation](crate::BspTree::preparation) include all polygons passed to
 ///   the build of the cell. To count each polygon of the scene once, use [`preparation`](Self::preparation).
@@ -217,7 +217,7 @@ impl Partition {
     /// Replaces `cells` by the cells that a polygon may reach, in ascending order.
     /// [`build_cell`](crate::BuildOptions::build_cell) needs only the polygons that reach the cell to build.
     ///
-    /// The test is conservative: a cell is listed if its box meets the polygon's box, enlarged by the
+    /// The test is conservative: a cell is listed if the cell's box meets the polygon's box, enlarged by the
     /// tolerance, and also meets a thin layer around the polygon's plane. So a few listed cells may contain
     /// no part of the polygon, which does no harm. If a corner of the polygon is NaN or outside the
     /// partition's grid, all cells are listed, and building any of these cells with the polygon returns an

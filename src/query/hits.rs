@@ -193,30 +193,31 @@ impl BspTree {
     ///
     /// # Definition of a hit
     ///
-    /// Hits are computed with the polygons as the tree stores them: their corners are rounded to the tree's
-    /// grid, and moved onto the polygon's plane if they were off the plane by less than the tolerance. A
-    /// polygon includes its edges and corners. A segment includes both ends, and a ray includes its start.
+    /// Hits are computed with the polygons as stored in the tree: corners are rounded to the tree's
+    /// [grid](Self#exactness), and corners that were off the polygon's plane by less than the tolerance are
+    /// moved onto the plane. A polygon includes its edges and corners. A segment includes both ends, and a
+    /// ray includes its start.
     ///
     /// The intersection of a ray and a polygon consists of points and segments. Each point is one hit. Each
     /// segment is one hit, at the point of the segment that is nearest to the ray's start:
     ///
     /// - A ray through an edge or a corner that several polygons share hits each of these polygons once,
-    ///   however the tree has cut them.
+    ///   however the tree has cut these polygons.
     /// - A ray in the plane of a polygon hits the polygon where the ray enters the polygon, or at the ray's
     ///   start if the start is inside the polygon. The [facing](Hit::facing) of the hit is
     ///   [`Facing::EdgeOn`]. There is no second hit where the ray leaves the polygon, or passes from one
     ///   fragment of the polygon to another.
     /// - Only a polygon that is not convex, or not planar, can be hit more than once.
     ///
-    /// Hits at the same point are in input order. The polygons that are hit, their order and their sides are
-    /// exact. So hits do not depend on how a tree was built.
+    /// Hits at the same point are in input order. The set of polygons that are hit, the order of the hits,
+    /// and the sides of the polygons are exact. So hits do not depend on how a tree was built.
     ///
     /// # Time
     ///
     /// The iterator searches only as far along the ray as the next hit requires. So time is proportional to
     /// the number of boxes that the ray crosses until you stop reading. The first call computes the boxes, in
     /// O(n) time ([`bounds`](Self::bounds)). If k fragments meet the ray at one point, as in a stack of
-    /// coplanar polygons, their hits take O(k log k) time in total.
+    /// coplanar polygons, the hits of these fragments take O(k log k) time in total.
     ///
     /// The iterator usually allocates nothing. It allocates if dozens of parts of the tree, or more than
     /// eight fragments, are pending at once, and if the ray lies in the plane of a polygon.

@@ -145,11 +145,12 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// The test uses the polygons as the tree stores them: their corners are rounded to the tree's grid, and
-    /// moved onto the polygon's plane if they were off the plane by less than the tolerance. The region is
-    /// used as given, except for very small digits: digits of a normal below 2⁻¹¹⁵ of the normal's largest
-    /// coordinate, and digits of an offset below 2⁻¹¹⁵ of the scene's extent (the longest side of the scene's
-    /// bounding box). A plane with an infinite or NaN number excludes nothing.
+    /// The test uses the polygons as stored in the tree: corners are rounded to the tree's
+    /// [grid](Self#exactness), and corners that were off the polygon's plane by less than the tolerance are
+    /// moved onto the plane. The region is used as given, except for very small digits: digits of a normal
+    /// below 2⁻¹¹⁵ of the normal's largest coordinate, and digits of an offset below 2⁻¹¹⁵ of the scene's
+    /// extent (the longest side of the scene's bounding box). A plane with an infinite or NaN number excludes
+    /// nothing.
     ///
     /// The time is mostly proportional to the number of fragments found, plus the number of fragments close
     /// to the region's boundary. The first call computes the tree's boxes, in O(n) time

@@ -197,8 +197,8 @@ use crate::faces::Preparation;
 /// |---|---|---|
 /// | `f64` | 10⁻⁹ of the extent; beyond a million extents from the origin, four steps of the largest coordinate | use 0 if even very thin layers must never be exchanged |
 /// | `f32` | four steps of the largest coordinate: near the origin, 2·10⁻⁷ to 5·10⁻⁷ of the extent; further away, a larger share | use 0 for coordinates without rounding errors, such as integers |
-/// | an OBJ file | four units of the last decimal place that its coordinates use (trailing zeros do not count), at most 10⁻⁵ of the extent; the distance from the origin does not matter | use a larger length if coarse rounding has [`bent`](crate::Preparation::bent) most quads |
-/// | your own [`Polygon`](crate::Polygon) type | as for `f32` or `f64`, whichever its points are; or its own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
+/// | an OBJ file | four units of the last decimal place that the file's coordinates use (trailing zeros do not count), at most 10⁻⁵ of the extent; the distance from the origin does not matter | use a larger length if coarse rounding has [`bent`](crate::Preparation::bent) most quads |
+/// | your own [`Polygon`](crate::Polygon) type | as for `f32` or `f64`, whichever the coordinates of the points are; or the polygon's own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
 /// | thin layers in a scene of large extent | as for the type of the coordinates | use a length of less than half the distance between the layers |
 ///
 /// Too small: polygons that were meant to be coplanar cut each other into slivers, and quads bent by rounding
@@ -219,11 +219,11 @@ use crate::faces::Preparation;
 /// # T-junctions
 ///
 /// A plane cuts only the polygons that reach both of its sides. Suppose that a cut ends on an edge that a
-/// *neighbouring* polygon shares. If the neighbour is not cut there, it has no vertex at the end of the cut.
-/// This place is a *T-junction*. The two neighbours can also be fragments of one polygon. A rasteriser can
-/// miss pixels at a T-junction, because the rounded vertex is not exactly on the neighbour's edge. If both
-/// neighbours have the vertex, its coordinates are bit for bit equal in both, unless the tolerance moved a
-/// corner of one polygon.
+/// *neighbouring* polygon shares. If the neighbour is not cut there, the neighbour has no vertex at the end
+/// of the cut. This place is a *T-junction*. The two neighbours can also be fragments of one polygon. A
+/// rasteriser can miss pixels at a T-junction, because the rounded vertex is not exactly on the neighbour's
+/// edge. If both neighbours have the vertex, the vertex's coordinates are bit for bit equal in both
+/// neighbours, unless the tolerance moved a corner of one polygon.
 ///
 /// [`welded_mesh`](Self::welded_mesh) returns a mesh without T-junctions: the mesh has the missing vertex in
 /// the neighbour too, so a closed body stays closed. Fragments themselves are never changed.

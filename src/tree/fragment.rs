@@ -360,9 +360,9 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 /// | `weights` and `weight_corners` of vertex `v` | `weight_offsets[v]..weight_offsets[v + 1]` |
 ///
 /// The weights are a sparse matrix in the form of compressed sparse rows (CSR). The matrix maps attributes of
-/// corners to attributes of vertices. It has a row for each vertex, and a column for each corner of all
-/// polygons. The column of a corner is the corner's number in the polygon, as in `weight_corners`, plus the
-/// number of corners of all earlier polygons:
+/// corners to attributes of vertices. The matrix has a row for each vertex, and a column for each corner of
+/// all polygons. The column of a corner is the corner's number in the polygon, as in `weight_corners`, plus
+/// the number of corners of all earlier polygons:
 ///
 /// ```
 /// use binspace::BspTree;

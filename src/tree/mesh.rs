@@ -63,7 +63,7 @@ pub use triangles::Triangles;
 /// - the intersection of an edge and a plane that cuts the edge;
 /// - the intersection of a polygon and two planes that cut the polygon.
 ///
-/// If several planes cut an edge, an exact test decides whether they cut the edge in one point.
+/// If several planes cut an edge, an exact test decides whether the planes cut the edge in one point.
 ///
 /// # Welded
 ///

@@ -233,7 +233,7 @@ impl FusedIterator for Nodes<'_> {}
 
 impl BspTree {
     /// Returns the root node, whose subtree contains all fragments. `None` if the tree has no nodes. Then the
-    /// tree has no fragment, or it is a leaf with a single fragment.
+    /// tree has no fragment, or the tree is a leaf with a single fragment.
     pub fn root(&self) -> Option<Node<'_>> {
         let end = self.records.len() as u32;
         (!self.nodes.is_empty()).then_some(Node { tree: self, index: 0, depth: 1, first: 0, end })

@@ -28,8 +28,9 @@ const OF_CELL: u32 = 2;
 const WORTH_A_THREAD: usize = 4096;
 
 impl BspTree {
-    /// Writes the tree. [`read`](Self::read) returns an equal tree: its fragments, their numbers and bits,
-    /// and its orders are the same. Trees of a [`FrameBuilder`](crate::FrameBuilder) can be written too.
+    /// Writes the tree. [`read`](Self::read) returns an equal tree: the fragments, the fragments' numbers and
+    /// bits, and the orders are the same. Trees of a [`FrameBuilder`](crate::FrameBuilder) can be written
+    /// too.
     ///
     /// Takes O(n) time and O(depth) memory, plus a buffer of 64 kB, so `output` need not be a `BufWriter`.
     ///

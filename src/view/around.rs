@@ -18,8 +18,8 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If a number is not finite, `up` is zero, or the size is zero or beyond [`MAX_SIDE`](Self::MAX_SIDE) or
-    /// [`MAX_PIXELS`](Self::MAX_PIXELS).
+    /// If a number is not finite, `up` is zero, a side of the picture is 0 or above
+    /// [`MAX_SIDE`](Self::MAX_SIDE), or the picture has more than [`MAX_PIXELS`](Self::MAX_PIXELS) pixels.
     pub fn looking_at_all(bounds: [DVec3; 2], up: DVec3, size: [u32; 2]) -> Result<Self, Error> {
         let [up, side, ahead] = axes(up);
         let from = ahead * 0.8 + side * 0.45 + up * 0.4;
@@ -32,8 +32,8 @@ impl Camera {
 ///
 /// # Errors
 ///
-/// If a number is not finite, `up` is zero, or the size is zero or beyond [`MAX_SIDE`](Camera::MAX_SIDE) or
-/// [`MAX_PIXELS`](Camera::MAX_PIXELS).
+/// If a number is not finite, `up` is zero, a side of the picture is 0 or above
+/// [`MAX_SIDE`](Camera::MAX_SIDE), or the picture has more than [`MAX_PIXELS`](Camera::MAX_PIXELS) pixels.
 pub fn views(
     bounds: [DVec3; 2],
     up: DVec3,

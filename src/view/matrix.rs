@@ -36,9 +36,9 @@ impl Camera {
     ///
     /// The row of z, the depth, may have any finite numbers. There is no near and no far plane. For a
     /// perspective matrix, the depth is ignored. For a parallel matrix, the depth decides in which direction
-    /// the camera looks: it must increase away from the viewer, as in OpenGL, Vulkan, Direct3D, Metal and
-    /// WebGPU, or be constant along the direction of view. If depths are reversed ("reversed z"), negate the
-    /// row of z: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
+    /// the camera looks: the depth must increase away from the viewer, as in OpenGL, Vulkan, Direct3D, Metal
+    /// and WebGPU, or be constant along the direction of view. If depths are reversed ("reversed z"), negate
+    /// the row of z: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
     ///
     /// Mirrored pictures are an error. In a mirrored picture, the directions right, up and towards the viewer
     /// are left-handed. Mirrored pictures have two common causes:
@@ -76,7 +76,8 @@ impl Camera {
     /// - The angle between two sides of a pixel is less than 0.001 radians.
     /// - The angle between the picture's plane and the line of sight to the picture's middle is less than
     ///   0.001 radians.
-    /// - The size is zero, or beyond [`MAX_SIDE`](Self::MAX_SIDE) or [`MAX_PIXELS`](Self::MAX_PIXELS).
+    /// - A side of the picture is 0 or above [`MAX_SIDE`](Self::MAX_SIDE), or the picture has more than
+    ///   [`MAX_PIXELS`](Self::MAX_PIXELS) pixels.
     pub fn from_matrix(matrix: DMat4, size: [u32; 2]) -> Result<Self, Error> {
         let size = checked(size)?;
         if !matrix.is_finite() {

@@ -49,8 +49,8 @@ pub enum Projection {
     Perspective {
         /// The eye.
         eye: DVec3,
-        /// Half the picture's height at distance 1 from the eye. Unless the camera is off-axis, this is the
-        /// tangent of half the vertical field of view.
+        /// Half the picture's height at distance 1 from the eye. Unless the camera is off-axis, this value is
+        /// the tangent of half the vertical field of view.
         half_height: f64,
     },
     /// A parallel projection along a direction.
@@ -65,7 +65,7 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// The largest number of pixels of a picture in each direction.
+    /// The largest width and the largest height of a picture, in pixels.
     pub const MAX_SIDE: u32 = 1 << 16;
     /// The largest number of pixels of a picture.
     pub const MAX_PIXELS: u64 = 1 << 26;
@@ -76,8 +76,8 @@ impl Camera {
     /// # Errors
     ///
     /// If a number is not finite, the eye is at the target, `up` is parallel to the line from the eye to the
-    /// target, the field of view is not between 0 and π, or the size is zero or beyond
-    /// [`MAX_SIDE`](Self::MAX_SIDE) or [`MAX_PIXELS`](Self::MAX_PIXELS).
+    /// target, the field of view is not between 0 and π, a side of the picture is 0 or above
+    /// [`MAX_SIDE`](Self::MAX_SIDE), or the picture has more than [`MAX_PIXELS`](Self::MAX_PIXELS) pixels.
     pub fn perspective(
         eye: DVec3,
         target: DVec3,
@@ -120,8 +120,8 @@ impl Camera {
     /// # Errors
     ///
     /// If a number is not finite, `direction` is zero, `up` is parallel to `direction`, `height` is not
-    /// positive, or the size is zero or beyond [`MAX_SIDE`](Self::MAX_SIDE) or
-    /// [`MAX_PIXELS`](Self::MAX_PIXELS).
+    /// positive, a side of the picture is 0 or above [`MAX_SIDE`](Self::MAX_SIDE), or the picture has more
+    /// than [`MAX_PIXELS`](Self::MAX_PIXELS) pixels.
     pub fn parallel(
         direction: DVec3,
         up: DVec3,
@@ -239,7 +239,8 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If the size is zero, or beyond [`MAX_SIDE`](Self::MAX_SIDE) or [`MAX_PIXELS`](Self::MAX_PIXELS).
+    /// If a side of the picture is 0 or above [`MAX_SIDE`](Self::MAX_SIDE), or the picture has more than
+    /// [`MAX_PIXELS`](Self::MAX_PIXELS) pixels.
     pub fn with_size(&self, size: [u32; 2]) -> Result<Self, Error> {
         Ok(Self { size: checked(size)?, ..*self })
     }
@@ -291,9 +292,9 @@ impl Camera {
     /// plane; a perspective camera sees everything ahead of its eye.
     ///
     /// The borders are half a pixel outside the centres of the outermost pixels. So, although the camera's
-    /// numbers are rounded, the region contains the rays through all pixels' centres. (Exception: a pixel is
-    /// smaller than 2⁻³⁰ of the pixel's distance from the eye or, for a parallel camera, of the scene's
-    /// size.)
+    /// numbers are rounded, the region contains the rays through all pixels' centres. (Exception: the width
+    /// or the height of a pixel is less than 2⁻³⁰ of the pixel's distance from the eye or, for a parallel
+    /// camera, of the scene's size.)
     pub fn frustum(&self) -> Frustum {
         let ([half_width, half_height], [x, y]) = (self.half_size(), self.rows());
         let (origin, ahead) = (self.origin(), self.forward);

@@ -99,7 +99,7 @@ impl<'a> PieceSet<'a> {
     }
 
     /// Returns the side of a plane on which each piece lies, in the order of the pieces' numbers. Returns
-    /// `None` if the plane's piece or axis does not exist, or its coordinate is NaN or infinite.
+    /// `None` if the plane's piece or axis does not exist, or the plane's coordinate is NaN or infinite.
     ///
     /// The sides are exact, except for the tolerance, and the build uses the same sides. Exception: if a
     /// larger polygon of the set is coplanar with a piece within the tolerance, the build may replace the

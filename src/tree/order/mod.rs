@@ -102,8 +102,9 @@ impl<'t> Order<'t> {
     /// Visits subtrees and fragments, and skips the subtrees for which `visit` returns [`Flow::Skip`].
     /// Returns the value of [`Flow::Break`], if any.
     ///
-    /// A subtree is visited before its own fragments and subtrees, and after everything that precedes it in
-    /// the order. So in a front-to-back walk, a subtree is visited after all fragments that may hide it.
+    /// A subtree is visited before its own fragments and subtrees, and after everything that precedes the
+    /// subtree in the order. So in a front-to-back walk, a subtree is visited after all fragments that may
+    /// hide it.
     ///
     /// The walk takes O(subtrees and fragments visited) time and O(depth) memory, and does not recurse. The
     /// walk of a [culled](Self::culled) order first tests the boxes against the frustum, and needs one more
