@@ -57,7 +57,7 @@ impl Error {
     }
 
     /// Renumbers the polygon that caused the error, if any. Use this method if you built from only some of
-    /// your polygons, such as the polygons of a cell.
+    /// your polygons, such as the polygons of a [cell](crate::partition).
     ///
     /// ```
     /// let error = binspace::BspTree::build([[[f64::NAN; 3]; 3]]).unwrap_err();
@@ -72,12 +72,14 @@ impl Error {
         self
     }
 
-    /// Returns the index of the overlay's line that caused the error, in input order.
+    /// Returns the index, in input order, of the [overlay](crate::overlay::Overlay)'s line that caused the
+    /// error.
     pub const fn line(&self) -> Option<usize> {
         self.number_of(Shape::Line)
     }
 
-    /// Returns the index of the overlay's point that caused the error, in input order.
+    /// Returns the index, in input order, of the [overlay](crate::overlay::Overlay)'s point that caused the
+    /// error.
     pub const fn point(&self) -> Option<usize> {
         self.number_of(Shape::Point)
     }

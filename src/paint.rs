@@ -20,8 +20,8 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
     paint_order(tree, &order, rays)
 }
 
-/// Paints the fragments whose numbers are in a list, such as a culled order. Each fragment is painted over
-/// the earlier fragments of the list. Numbers that belong to no fragment are skipped.
+/// Paints the [fragments](Fragment) whose numbers are in a list, such as a culled order. Each fragment is
+/// painted over the earlier fragments of the list. Numbers that belong to no fragment are skipped.
 ///
 /// # Panics
 ///
@@ -50,8 +50,8 @@ pub(crate) fn paint_list(
     painter.finish()
 }
 
-/// Paints a tree's fragments in colours, back to front, over a background. `look` returns the colour and the
-/// opacity of a polygon, given the polygon's number.
+/// Paints a tree's [fragments](Fragment) in colours, back to front, over a background. `look` returns the
+/// colour and the opacity of a polygon, given the polygon's number.
 ///
 /// The picture is RGB, 8 bits each, row by row from the top left. If all polygons are opaque, the picture
 /// equals [`raster::picture`](crate::raster::picture) of the image from [`paint_tree`].
@@ -74,10 +74,10 @@ pub fn paint_tree_in_colour(
     pixels.into_iter().flatten().map(|channel| channel.round() as u8).collect()
 }
 
-/// Calls `paint` for each pixel of each fragment, back to front. The arguments of `paint` are the pixel's
-/// number, counted row by row from the top left, and the colour and opacity of the fragment. If `paint` calls
-/// [`blend`], the result is the picture of [`paint_tree_in_colour`]. To paint a partition, call this function
-/// for the tree of each cell, back to front.
+/// Calls `paint` for each pixel of each [fragment](Fragment), back to front. The arguments of `paint` are the
+/// pixel's number, counted row by row from the top left, and the colour and opacity of the fragment. If
+/// `paint` calls [`blend`], the result is the picture of [`paint_tree_in_colour`]. To paint a
+/// [partition](crate::partition), call this function for the tree of each cell, back to front.
 ///
 /// # Panics
 ///

@@ -72,8 +72,9 @@ use crate::viewpoint::Viewpoint;
 /// # Tolerance
 ///
 /// All cells have one tolerance, a length: the tolerance of the [options](crate::BuildOptions::partition)
-/// with which the partition was made. By default the tolerance depends on the extent and the precision of all
-/// polygons, as in one tree of the scene. The options with which a cell is built do not affect the tolerance.
+/// with which the partition was made. By default the tolerance depends on the [extent](Extent) and the
+/// precision of all polygons, as in one tree of the scene. The options with which a cell is built do not
+/// affect the tolerance.
 ///
 /// The order is right up to the tolerance, as in [one tree](crate::BspTree#exactness). Two polygons that are
 /// closer to each other than the tolerance, and not coplanar, can have another order than in one tree of the
@@ -81,8 +82,8 @@ use crate::viewpoint::Viewpoint;
 ///
 /// # Trees of cells
 ///
-/// The tree of a cell returns orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
-/// The tree of a cell differs from other trees in these respects:
+/// The tree of a cell returns orders, [fragments](crate::Fragment), meshes, boxes and hits of the polygons'
+/// parts in the cell. The tree of a cell differs from other trees in these respects:
 ///
 /// - Winding numbers, drawings, and the depth buffers of `raster` and `verify` need whole polygons. So these
 ///   features do not work with the tree of a cell.
@@ -271,8 +272,8 @@ impl Partition {
     }
 }
 
-/// The bounding box and the precision of a scene. All processes that build cells of a partition must use the
-/// same extent.
+/// The bounding box and the precision of a scene. All processes that build cells of a [`Partition`] must use
+/// the same extent.
 ///
 /// Each process may compute the extent of a part of the polygons. [`merge`](Self::merge) combines the
 /// results, in any order.

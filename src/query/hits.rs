@@ -236,8 +236,8 @@ pub struct Hit<'t> {
 }
 
 impl<'t> Hit<'t> {
-    /// Returns the fragment that the ray hits, for instance for its [normal](Fragment::normal). If several
-    /// fragments of the polygon meet at the hit's point, the result is any one of these fragments.
+    /// Returns the [fragment](Fragment) that the ray hits, for instance for its [normal](Fragment::normal).
+    /// If several fragments of the polygon meet at the hit's point, the result is any one of these fragments.
     #[doc(alias = "normal")]
     pub fn fragment(&self) -> Fragment<'t> {
         self.fragment

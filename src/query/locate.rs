@@ -10,7 +10,8 @@ use crate::exact::eye::ExactRay;
 use crate::tree::{BspTree, Child, Node};
 use crate::viewpoint::Ray;
 
-/// The leaf of a tree that contains a point, and the partition planes through the point: [`BspTree::locate`].
+/// The leaf of a tree that contains a point, and the [partition planes](BspTree#contents) through the point:
+/// [`BspTree::locate`]. A *leaf* is a convex region of space that no partition plane divides.
 ///
 /// Two locations are equal if they have the same leaf and the same planes.
 #[derive(Clone, Debug)]
@@ -34,14 +35,15 @@ impl<'t> Location<'t> {
         self.is_in_front
     }
 
-    /// Returns the number of the leaf's fragment as a range, or an empty range if the leaf has no fragment.
+    /// Returns the number of the leaf's [fragment](crate::Fragment) as a range, or an empty range if the leaf
+    /// has no fragment.
     pub fn fragments(&self) -> Range<u32> {
         self.fragments.clone()
     }
 
     /// Returns the nodes whose planes contain the point exactly, from the root down to the leaf. The
     /// fragments [`on`](Node::on) the plane of such a node are in the same plane as the point, up to the
-    /// tolerance.
+    /// [tolerance](BspTree#exactness).
     pub fn planes(&self) -> &[Node<'t>] {
         &self.planes
     }

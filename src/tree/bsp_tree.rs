@@ -430,7 +430,7 @@ pub struct Stats {
     pub faces: usize,
     /// The number of [fragments](crate::Fragment) in the tree.
     pub fragments: usize,
-    /// The number of [nodes](crate::Node), each of which has one partition plane.
+    /// The number of [nodes](crate::Node), each of which has one [partition plane](BspTree#contents).
     pub nodes: usize,
     /// The largest number of nodes on a path from the root.
     pub depth_max: usize,

@@ -43,8 +43,8 @@ pub struct Node<'t> {
 pub enum Child<'t> {
     /// Another node.
     Node(Node<'t>),
-    /// A [leaf](BspTree::locate), which no partition plane divides: the number of the leaf's fragment as a
-    /// range, or an empty range if the leaf has no fragment.
+    /// A [leaf](BspTree::locate), a region that no [partition plane](BspTree#contents) divides: the number of
+    /// the leaf's [fragment](crate::Fragment) as a range, or an empty range if the leaf has no fragment.
     Leaf(Range<u32>),
 }
 
@@ -123,13 +123,13 @@ impl<'t> Node<'t> {
         self.ranges().back
     }
 
-    /// Returns the front side: a node or a leaf.
+    /// Returns the front side: a node or a [leaf](BspTree::locate).
     pub fn front(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.front_node(self.index()), self.in_front())
     }
 
-    /// Returns the back side: a node or a leaf.
+    /// Returns the back side: a node or a [leaf](BspTree::locate).
     pub fn back(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.back_node(self.index()), self.behind())

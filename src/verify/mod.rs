@@ -45,17 +45,18 @@ impl Verification {
     }
 }
 
-/// Paints a tree's fragments back to front and front to back, and compares both pictures with a depth
-/// buffer's picture, pixel by pixel. Also checks that the tree's list and iterator have the same order.
+/// Paints a tree's [fragments](crate::Fragment) back to front and front to back, and compares both pictures
+/// with a depth buffer's picture, pixel by pixel. Also checks that the tree's list and iterator have the same
+/// order.
 ///
 /// If the library has no error, the result [is right](Verification::is_right) for every scene and camera. A
-/// pixel may differ, but only if it is *contested*: the tolerance τ allows either order of the painted
-/// fragment and the true fragment. A pixel is contested in two cases:
+/// pixel may differ, but only if it is *contested*: the [tolerance](BspTree#exactness) τ allows either order
+/// of the painted fragment and the true fragment. A pixel is contested in two cases:
 ///
 /// - The ray of the pixel meets both fragments at exactly the same distance.
-/// - One of the two fragments reaches across the partition plane between them, and two points of the ray are
-///   within τ of that plane: the point where the ray meets the nearer fragment, and either the ray's start or
-///   the point where the ray meets the other fragment.
+/// - One of the two fragments reaches across the [partition plane](BspTree#contents) between the two
+///   fragments, and two points of the ray are within τ of that plane: the point where the ray meets the
+///   nearer fragment, and either the ray's start or the point where the ray meets the other fragment.
 ///
 /// With a tolerance of 0, only the first case is contested.
 ///
@@ -78,14 +79,14 @@ impl Verification {
 ///
 /// # Errors
 ///
-/// If the camera does not fit the scene's grid; see [`Rays::new`].
+/// If the camera does not fit the tree's [grid](BspTree::grid); see [`Rays::new`].
 pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, Error> {
     let rays = Rays::new(camera, tree.faces())?;
     Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }
 
-/// Verifies a tree like [`verify`], but ignores faces seen from the back: such faces are not painted, and
-/// hide no other faces. Use this function for rooms seen from outside.
+/// Verifies a tree like [`verify`], but ignores [faces](BspTree#contents) seen from the back: such faces are
+/// not painted, and hide no other faces. Use this function for rooms seen from outside.
 ///
 /// # Errors
 ///
@@ -155,8 +156,8 @@ const FORMS: [&str; 4] = ["write_into", "order", "front_to_back", "front_to_back
 /// The first form of front-to-back orders.
 const FIRST_NEAR: usize = 2;
 
-/// Checks that the order of a viewpoint contains every fragment once, that the list and the iterator have
-/// the same order, and that front to back is the reverse of back to front.
+/// Checks that the order of a viewpoint contains every [fragment](crate::Fragment) once, that the list and
+/// the iterator have the same order, and that front to back is the reverse of back to front.
 ///
 /// This function does not check that the order is right: [`verify`] does, by a picture of the order.
 ///

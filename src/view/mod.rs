@@ -171,7 +171,7 @@ impl Camera {
         &self.projection
     }
 
-    /// Returns the viewpoint for ordering fragments.
+    /// Returns the viewpoint for ordering [fragments](crate::Fragment).
     pub fn viewpoint(&self) -> Viewpoint {
         match self.projection {
             Projection::Perspective { eye, .. } => Viewpoint::Eye(eye),

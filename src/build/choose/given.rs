@@ -38,10 +38,10 @@ pub enum SplitPlane {
     OfPiece(usize),
     /// A plane perpendicular to an axis. The plane's front is the side of larger coordinates.
     ///
-    /// Every plane of a tree goes through a corner of a polygon. So the build moves this plane along the axis
-    /// to the corner nearest to `coordinate`. All corners of all polygons count, at their positions after
-    /// rounding to the [grid](crate::BspTree::grid) and [flattening](crate::Preparation::flattened) within
-    /// the tolerance.
+    /// Every plane of a tree goes through a corner of a polygon. So the builder moves this plane along the
+    /// axis to the corner nearest to `coordinate`. All corners of all polygons count, at their positions
+    /// after rounding to the [grid](crate::BspTree::grid) and [flattening](crate::Preparation::flattened)
+    /// within the [tolerance](crate::Tolerance).
     Axis {
         /// 0, 1 or 2 for x, y or z.
         axis: usize,
@@ -101,11 +101,11 @@ impl<'a> PieceSet<'a> {
     /// Returns the side of a plane on which each piece lies, in the order of the pieces' numbers. Returns
     /// `None` if the plane's piece or axis does not exist, or the plane's coordinate is NaN or infinite.
     ///
-    /// The sides are exact, except for the tolerance, and the build uses the same sides. Exception: if a
-    /// larger polygon of the set is coplanar with a piece within the tolerance, the build may replace the
-    /// piece's plane by the larger polygon's plane (see [`Heuristic`](crate::Heuristic)). Takes O(n) time for
-    /// n vertices. For an axis plane, a binary search first finds the nearest corner; the first search along
-    /// an axis sorts all corners.
+    /// The sides are exact, except for the [tolerance](crate::Tolerance), and the builder uses the same
+    /// sides. Exception: if a larger polygon of the set is coplanar with a piece within the tolerance, the
+    /// builder may replace the piece's plane by the larger polygon's plane (see
+    /// [`Heuristic`](crate::Heuristic)). Takes O(n) time for n vertices. For an axis plane, a binary search
+    /// first finds the nearest corner; the first search along an axis sorts all corners.
     pub fn sides(
         &self,
         plane: SplitPlane,

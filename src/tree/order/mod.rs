@@ -17,7 +17,7 @@ use layout::{Chain, FRAGMENTS, Inner, NEXT, NODES, OrderLayout, ROOT, Span};
 /// The order of a tree's [fragments](Fragment) for one viewpoint: [`BspTree::order`].
 ///
 /// Back to front by default; see [`front_to_back`](Self::front_to_back). Write the order into a list of
-/// numbers, iterate over its fragments, or walk its subtrees:
+/// numbers, iterate over its fragments, or [walk](Self::walk) its subtrees:
 ///
 /// ```
 /// use binspace::{BspTree, Viewpoint};
@@ -206,7 +206,7 @@ pub enum Part<'t> {
 /// The result of the caller's function in a walk ([`Order::walk`]): how the walk continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow<B = ()> {
-    /// Enter the subtree. After a fragment: continue with the next [part](Part).
+    /// Enter the [subtree](Node). After a [fragment](Fragment): continue with the next [part](Part).
     Descend,
     /// Skip the subtree. After a fragment: continue with the next [part](Part).
     Skip,
