@@ -70,7 +70,8 @@ pub struct VisibilityMap<'t> {
     pub(super) reporter: Reporter<'t>,
 }
 
-/// The options of a view: [`BspTree::visibility`].
+/// The options of a view, for [`BspTree::visibility`] and
+/// [`Drawing::translucent`](super::Drawing::translucent).
 ///
 /// ```
 /// use binspace::drawing::ViewOptions;
@@ -88,8 +89,9 @@ pub struct ViewOptions<'a> {
     /// nothing, and polygons with opacity 0 are left out. Default: an empty list, with which all polygons are
     /// opaque.
     pub opacities: Vec<f64>,
-    /// The least visible area, in square pixels. Drawings leave out polygons whose visible area is smaller.
-    /// Lists of regions leave out smaller regions. Default: 0, which leaves out nothing. NaN counts as 0.
+    /// The least visible area, in square pixels. [Drawings](VisibilityMap::drawing) leave out polygons whose
+    /// visible area is smaller. Lists of [regions](VisibilityMap::regions) leave out smaller regions.
+    /// Default: 0, which leaves out nothing. NaN counts as 0.
     pub least_area: f64,
     /// A callback that receives the progress and can cancel the work: see [Progress](VisibilityMap#progress).
     /// Default: `None`.
@@ -137,13 +139,14 @@ impl fmt::Debug for ViewOptions<'_> {
     }
 }
 
-/// The handling of hidden parts of edges, crossings and lines.
+/// The handling of hidden parts of [edges](VisibilityMap::edges), [crossings](VisibilityMap::crossings) and
+/// [lines](VisibilityMap::lines).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Hidden {
     /// Leaves hidden parts out.
     #[default]
     Skip,
-    /// Returns hidden parts as runs that are not visible.
+    /// Returns hidden parts as [runs](super::EdgeRun) that are not visible.
     Keep,
     /// Returns hidden parts as runs, like `Keep`, and counts the polygons in front of each run:
     /// [`EdgeRun::layers`](super::EdgeRun::layers). Hidden runs are cut where this number changes.
@@ -159,7 +162,7 @@ pub enum Hidden {
     Count,
 }
 
-/// A polygon with a visible part.
+/// A polygon with a visible part in a [`VisibilityMap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VisiblePolygon {
@@ -167,12 +170,12 @@ pub struct VisiblePolygon {
     pub polygon: usize,
     /// The visible area of the polygon, in square pixels.
     pub area: f64,
-    /// A point, in pixels, at which the polygon is visible: near the middle of the polygon's largest
-    /// [cell](MapCell).
+    /// A point, in pixels, at which the polygon is visible: near the middle of the largest of the convex
+    /// [cells](MapCell) that form the polygon's visible part.
     pub point: [f64; 2],
 }
 
-/// A convex part of the picture in which one polygon is visible.
+/// A cell of a [`VisibilityMap`]: a convex part of the picture in which one polygon is visible.
 #[derive(Clone, Copy, Debug)]
 pub struct MapCell<'m> {
     polygon: usize,
@@ -182,21 +185,21 @@ pub struct MapCell<'m> {
 impl BspTree {
     /// Computes the visible parts of the tree's polygons for a camera.
     ///
-    /// A polygon is visible where no opaque polygon is in front of it. So the cells of translucent polygons,
-    /// whose [opacities](ViewOptions::opacities) are less than 1, overlap the cells of the polygons behind
-    /// them. The number of cells and the time grow with the number of translucent polygons that lie over one
-    /// another.
+    /// A polygon is visible where no opaque polygon is in front of it. So the [cells](MapCell) of
+    /// translucent polygons, whose [opacities](ViewOptions::opacities) are less than 1, overlap the cells of
+    /// the polygons behind them. The number of cells and the time grow with the number of translucent
+    /// polygons that lie over one another.
     ///
     /// # Errors
     ///
     /// An error is returned if
     ///
     /// - the camera is too far from the scene or its view is too narrow, as for [`Rays::new`];
-    /// - the tree is the tree of one cell of a partition;
+    /// - the tree is the tree of one cell of a [partition](crate::partition);
     /// - the list of opacities is not empty, and its length is not the number of polygons;
     /// - an opacity is not a number from 0 to 1 ([`Error::polygon`] is the first such polygon);
     /// - memory runs out; or
-    /// - the callback cancels the work.
+    /// - the [callback](ViewOptions::progress) cancels the work.
     pub fn visibility<'t>(
         &'t self,
         camera: &Camera,
@@ -239,7 +242,7 @@ impl VisibilityMap<'_> {
             .map(|Visible { item, cell }| MapCell { polygon: self.primitives.polygon(*item), cell })
     }
 
-    /// Returns the visible polygons, sorted by number. [`ViewOptions::least_area`] has no effect on this
+    /// Returns the visible polygons, sorted by index. [`ViewOptions::least_area`] has no effect on this
     /// list. Each call computes the list again, in O(c log c) for c cells.
     pub fn polygons(&self) -> impl Iterator<Item = VisiblePolygon> {
         let mut found: BTreeMap<usize, (VisiblePolygon, f64)> = BTreeMap::new();
