@@ -26,19 +26,20 @@ use crate::view::Camera;
 /// A polygon is in the map if and only if a part of it is visible, however small. Where two coplanar polygons
 /// overlap, the visible polygon is the one that the tree's back-to-front order paints last.
 ///
-/// The tree's tolerance may move the corners of a polygon onto a plane: see
+/// The tree's [tolerance](crate::BspTree#exactness) may move the corners of a polygon onto a plane: see
 /// [flattened](crate::Preparation::flattened) and [nearly coplanar](crate::Stats::nearly_coplanar) polygons.
 /// This plane decides which polygon is in front. In most cases, the polygon's edges in the picture still go
 /// through the given corners, so there is no crack between neighbours that share an edge. The edges go
 /// through the moved corners if
 ///
-/// - a corner was moved by more than 2⁻³² of the extent (the rounding of `f64` moves corners less);
+/// - a corner was moved by more than 2⁻³² of the scene's [extent](crate::BspTree#exactness) (the rounding of
+///   `f64` moves corners less);
 /// - the given corners do not form a convex polygon in the picture; or
 /// - the polygon has more than eight corners.
 ///
-/// The time is O(n log n) for n fragments in most scenes. The map stores its cells, and the edges of all
-/// polygons in the frustum, including hidden polygons. With the feature `parallel`, all threads share the
-/// work; the map is the same, bit for bit.
+/// The time is O(n log n) for n [fragments](crate::Fragment) in most scenes. The map stores its cells, and
+/// the edges of all polygons in the frustum, including hidden polygons. With the feature `parallel`, all
+/// threads share the work; the map is the same, bit for bit.
 ///
 /// Positions are in pixels, as for [`Camera::project`]: x points right, and y points down. The upper left
 /// corner of the first pixel is (0, 0), and its centre is (½, ½).

@@ -233,12 +233,12 @@ impl Overlay {
         self.bounds.take();
     }
 
-    /// Returns the number of pieces.
+    /// Returns the number of [pieces](Self#contents) and points.
     pub fn len(&self) -> usize {
         self.pieces.records.len()
     }
 
-    /// Returns whether there are no pieces.
+    /// Returns whether there is no piece and no point.
     pub fn is_empty(&self) -> bool {
         self.pieces.records.is_empty()
     }

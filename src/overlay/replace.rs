@@ -278,8 +278,8 @@ impl Marker {
 }
 
 impl Overlay {
-    /// Returns the piece that has a given number in orders. Returns `None` if a fragment of the tree, or no
-    /// shape, has this number.
+    /// Returns the piece or point that has a given number in orders. Returns `None` if a fragment of the
+    /// tree, or no shape, has this number.
     pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
         let face = self.record(number)?.face;
         let piece = self.stored(number);

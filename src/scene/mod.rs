@@ -32,9 +32,9 @@ use crate::Polygon;
 
 /// Polygons with colours.
 ///
-/// Polygons are numbered from 0, in the order in which they were added. A scene accepts every polygon. A tree
-/// of the scene drops polygons without area. Infinite coordinates and NaN are an error only when a tree is
-/// built.
+/// Polygons are numbered from 0, in the order in which they were added. A scene accepts every polygon. A
+/// [tree](crate::BspTree#contents) of the scene drops polygons without area. Infinite coordinates and NaN
+/// are an error only when a tree is built.
 ///
 /// ```
 /// use binspace::glam::DVec3;
