@@ -52,13 +52,14 @@ impl VisibilityMap<'_> {
     /// Returns the lines in which polygons intersect, as [runs](EdgeRun) of the kind [`EdgeKind::Crossing`].
     /// Each run is returned once: [`EdgeRun::polygon`] is the lower number of the two polygons, and the kind
     /// contains the higher number. An edge that only touches another polygon is not a crossing;
-    /// [`edges`](Self::edges) returns it.
+    /// [`edges`](Self::edges) returns such edges.
     ///
     /// A point of a crossing is visible if one polygon is visible on one side of the line at the point, and
     /// the other polygon is visible on the other side. Crossings are as exact as the map: only the ends of
     /// runs are rounded. At the common edge of two triangles of a triangulated polygon, another polygon
     /// crosses the triangulated polygon if the other polygon lies between the two triangles. A corner no
-    /// further from a polygon's plane than the tolerance is treated as on the plane.
+    /// further from a polygon's plane than the [tolerance](crate::BspTree#exactness) is treated as on the
+    /// plane.
     ///
     /// With [`Hidden::Keep`] and [`Hidden::Count`], hidden runs are returned too, but only for some pairs of
     /// polygons. Each polygon of such a pair has corners on both sides of the other polygon's plane, further

@@ -283,11 +283,12 @@ impl SharedEdge {
     }
 }
 
-/// The kind of a line in a line drawing.
+/// The kind of the line that an [`EdgeRun`] is a part of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EdgeKind {
-    /// The polygon shares this edge with no other polygon, or with several other polygons.
+    /// The run's [polygon](EdgeRun::polygon) shares the edge with no other polygon, or with several other
+    /// polygons.
     Border,
     /// One polygon at the edge is seen from its front and the other polygon from behind, or one of the two
     /// polygons is seen edge-on. Seen from the eye, a body ends at a silhouette. Two parts of one polygon
@@ -297,16 +298,17 @@ pub enum EdgeKind {
     /// Two polygons meet at this angle, in radians: 0 if they lie in one plane, π if one polygon is folded
     /// back on the other.
     Crease(f64),
-    /// The polygon intersects the polygon with this number.
+    /// The run's [polygon](EdgeRun::polygon) intersects the polygon with this index, in input order.
     Crossing(usize),
 }
 
-/// A part of an edge or of a crossing, either entirely visible or entirely hidden.
+/// A part of a polygon's [edge](VisibilityMap::edges) or of a [crossing](VisibilityMap::crossings), either
+/// entirely visible or entirely hidden.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EdgeRun {
     /// The index of a polygon that has the edge and is not seen edge-on. At a crossing, the lower index of
-    /// the two polygons.
+    /// the two polygons; the [kind](EdgeKind::Crossing) contains the higher index.
     pub polygon: usize,
     /// The number of the polygon's corner where the edge begins; `None` for a crossing, and for a silhouette
     /// inside a polygon that is not planar.

@@ -26,19 +26,20 @@ use crate::view::Camera;
 /// A polygon is in the map if and only if a part of it is visible, however small. Where two coplanar polygons
 /// overlap, the visible polygon is the one that the tree's back-to-front order paints last.
 ///
-/// The tree's tolerance may move the corners of a polygon onto a plane: see
+/// The tree's [tolerance](crate::BspTree#exactness) may move the corners of a polygon onto a plane: see
 /// [flattened](crate::Preparation::flattened) and [nearly coplanar](crate::Stats::nearly_coplanar) polygons.
 /// This plane decides which polygon is in front. In most cases, the polygon's edges in the picture still go
 /// through the given corners, so there is no crack between neighbours that share an edge. The edges go
 /// through the moved corners if
 ///
-/// - a corner was moved by more than 2⁻³² of the extent (the rounding of `f64` moves corners less);
+/// - a corner was moved by more than 2⁻³² of the scene's [extent](crate::BspTree#exactness) (the rounding of
+///   `f64` moves corners less);
 /// - the given corners do not form a convex polygon in the picture; or
 /// - the polygon has more than eight corners.
 ///
-/// The time is O(n log n) for n fragments in most scenes. The map stores its cells, and the edges of all
-/// polygons in the frustum, including hidden polygons. With the feature `parallel`, all threads share the
-/// work; the map is the same, bit for bit.
+/// The time is O(n log n) for n [fragments](crate::Fragment) in most scenes. The map stores its cells, and
+/// the edges of all polygons in the frustum, including hidden polygons. With the feature `parallel`, all
+/// threads share the work; the map is the same, bit for bit.
 ///
 /// Positions are in pixels, as for [`Camera::project`]: x points right, and y points down. The upper left
 /// corner of the first pixel is (0, 0), and its centre is (½, ½).
@@ -70,7 +71,8 @@ pub struct VisibilityMap<'t> {
     pub(super) reporter: Reporter<'t>,
 }
 
-/// The options of a view: [`BspTree::visibility`].
+/// The options of a view, for [`BspTree::visibility`] and
+/// [`Drawing::translucent`](super::Drawing::translucent).
 ///
 /// ```
 /// use binspace::drawing::ViewOptions;
@@ -88,8 +90,9 @@ pub struct ViewOptions<'a> {
     /// nothing, and polygons with opacity 0 are left out. Default: an empty list, with which all polygons are
     /// opaque.
     pub opacities: Vec<f64>,
-    /// The least visible area, in square pixels. Drawings leave out polygons whose visible area is smaller.
-    /// Lists of regions leave out smaller regions. Default: 0, which leaves out nothing. NaN counts as 0.
+    /// The least visible area, in square pixels. [Drawings](VisibilityMap::drawing) leave out polygons whose
+    /// visible area is smaller. Lists of [regions](VisibilityMap::regions) leave out smaller regions.
+    /// Default: 0, which leaves out nothing. NaN counts as 0.
     pub least_area: f64,
     /// A callback that receives the progress and can cancel the work: see [Progress](VisibilityMap#progress).
     /// Default: `None`.
@@ -137,13 +140,14 @@ impl fmt::Debug for ViewOptions<'_> {
     }
 }
 
-/// The handling of hidden parts of edges, crossings and lines.
+/// The handling of hidden parts of [edges](VisibilityMap::edges), [crossings](VisibilityMap::crossings) and
+/// [lines](VisibilityMap::lines).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Hidden {
     /// Leaves hidden parts out.
     #[default]
     Skip,
-    /// Returns hidden parts as runs that are not visible.
+    /// Returns hidden parts as [runs](super::EdgeRun) that are not visible.
     Keep,
     /// Returns hidden parts as runs, like `Keep`, and counts the polygons in front of each run:
     /// [`EdgeRun::layers`](super::EdgeRun::layers). Hidden runs are cut where this number changes.
@@ -159,7 +163,7 @@ pub enum Hidden {
     Count,
 }
 
-/// A polygon with a visible part.
+/// A polygon with a visible part in a [`VisibilityMap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VisiblePolygon {
@@ -167,12 +171,12 @@ pub struct VisiblePolygon {
     pub polygon: usize,
     /// The visible area of the polygon, in square pixels.
     pub area: f64,
-    /// A point, in pixels, at which the polygon is visible: near the middle of the polygon's largest
-    /// [cell](MapCell).
+    /// A point, in pixels, at which the polygon is visible: near the middle of the largest of the convex
+    /// [cells](MapCell) that form the polygon's visible part.
     pub point: [f64; 2],
 }
 
-/// A convex part of the picture in which one polygon is visible.
+/// A cell of a [`VisibilityMap`]: a convex part of the picture in which one polygon is visible.
 #[derive(Clone, Copy, Debug)]
 pub struct MapCell<'m> {
     polygon: usize,
@@ -182,21 +186,21 @@ pub struct MapCell<'m> {
 impl BspTree {
     /// Computes the visible parts of the tree's polygons for a camera.
     ///
-    /// A polygon is visible where no opaque polygon is in front of it. So the cells of translucent polygons,
-    /// whose [opacities](ViewOptions::opacities) are less than 1, overlap the cells of the polygons behind
-    /// them. The number of cells and the time grow with the number of translucent polygons that lie over one
-    /// another.
+    /// A polygon is visible where no opaque polygon is in front of it. So the [cells](MapCell) of
+    /// translucent polygons, whose [opacities](ViewOptions::opacities) are less than 1, overlap the cells of
+    /// the polygons behind them. The number of cells and the time grow with the number of translucent
+    /// polygons that lie over one another.
     ///
     /// # Errors
     ///
     /// An error is returned if
     ///
     /// - the camera is too far from the scene or its view is too narrow, as for [`Rays::new`];
-    /// - the tree is the tree of one cell of a partition;
+    /// - the tree is the tree of one cell of a [partition](crate::partition);
     /// - the list of opacities is not empty, and its length is not the number of polygons;
     /// - an opacity is not a number from 0 to 1 ([`Error::polygon`] is the first such polygon);
     /// - memory runs out; or
-    /// - the callback cancels the work.
+    /// - the [callback](ViewOptions::progress) cancels the work.
     pub fn visibility<'t>(
         &'t self,
         camera: &Camera,
@@ -239,7 +243,7 @@ impl VisibilityMap<'_> {
             .map(|Visible { item, cell }| MapCell { polygon: self.primitives.polygon(*item), cell })
     }
 
-    /// Returns the visible polygons, sorted by number. [`ViewOptions::least_area`] has no effect on this
+    /// Returns the visible polygons, sorted by index. [`ViewOptions::least_area`] has no effect on this
     /// list. Each call computes the list again, in O(c log c) for c cells.
     pub fn polygons(&self) -> impl Iterator<Item = VisiblePolygon> {
         let mut found: BTreeMap<usize, (VisiblePolygon, f64)> = BTreeMap::new();

@@ -9,7 +9,7 @@
 //! | [`VisibilityMap::drawing`] | one filled path for each visible polygon, in painting order |
 //! | [`VisibilityMap::polygons`] | the visible polygons, the area of each, and a point of each |
 //! | [`VisibilityMap::edges`], [`crossings`](VisibilityMap::crossings) | [runs](EdgeRun) of edges, and of the lines in which polygons intersect; a run is a part that is entirely visible or entirely hidden |
-//! | [`VisibilityMap::lines`], [`markers`](VisibilityMap::markers) | the visible parts of an overlay's lines and points |
+//! | [`VisibilityMap::lines`], [`markers`](VisibilityMap::markers) | the visible parts of the lines and points of an [overlay](crate::overlay::Overlay) |
 //! | [`VisibilityMap::regions`] | the parts of the picture in which the same translucent polygons lie one behind the other |
 //! | [`polylines`] | runs joined into few long polylines, sorted to shorten pen travel |
 //!

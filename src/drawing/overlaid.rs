@@ -18,7 +18,7 @@ use crate::overlay::Overlay;
 use crate::overlay::place::GivenSegment;
 use crate::progress::Watch;
 
-/// A part of a segment of an overlay's line, either entirely visible or entirely hidden.
+/// A part of a segment of a line of an [`Overlay`], either entirely visible or entirely hidden.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineRun {
@@ -62,19 +62,19 @@ impl LineRun {
 }
 
 impl VisibilityMap<'_> {
-    /// Returns the lines of an overlay of the same tree, clipped to the picture. Each segment is divided into
-    /// [runs](LineRun), which are entirely visible or entirely hidden. With [`Hidden::Skip`], only visible
-    /// runs are returned. Runs are sorted by segment in input order, then from the start of the segment to
-    /// its end.
+    /// Returns the lines of an [overlay](Overlay) of the same tree, clipped to the picture. Each segment is
+    /// divided into [runs](LineRun), which are entirely visible or entirely hidden. With [`Hidden::Skip`],
+    /// only visible runs are returned. Runs are sorted by segment in input order, then from the start of the
+    /// segment to its end.
     ///
     /// A point of a line is hidden if an opaque polygon is in front of the point. It suffices that an edge or
     /// a corner of the polygon is in front of the point. Polygons seen edge-on hide nothing, and lines hide
     /// nothing. A segment seen end-on has no run.
     ///
-    /// A segment that lies within the tolerance of a polygon's plane counts as lying on the plane, and the
-    /// polygon does not hide the segment. A segment that reaches further than the tolerance on only one side
-    /// of the plane counts as entirely on that side. These decisions are exact; only the ends of runs are
-    /// rounded.
+    /// A segment that lies within the [tolerance](crate::BspTree#exactness) of a polygon's plane counts as
+    /// lying on the plane, and the polygon does not hide the segment. A segment that reaches further than
+    /// the tolerance on only one side of the plane counts as entirely on that side. These decisions are
+    /// exact; only the ends of runs are rounded.
     ///
     /// Takes O(n log n + k) for n segments and cells, and k pairs of a segment and a cell that meet in the
     /// picture. With [`Hidden::Count`], n and k also include hidden polygons.
@@ -122,7 +122,7 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// Returns the points of an overlay of the same tree that are in the picture, in input order.
+    /// Returns the points of an [overlay](Overlay) of the same tree that are in the picture, in input order.
     ///
     /// The rules of [`lines`](Self::lines) decide whether a point is hidden.
     ///

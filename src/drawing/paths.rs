@@ -23,7 +23,8 @@ use crate::progress::Watch;
 use crate::union::Union;
 use crate::{Error, parallel_map};
 
-/// A view as filled outlines, in painting order.
+/// A view as filled outlines, in painting order, from [`VisibilityMap::drawing`] or
+/// [`Drawing::translucent`].
 #[derive(Clone, Debug)]
 pub struct Drawing {
     pub(super) size: [u32; 2],
@@ -44,7 +45,7 @@ pub(super) struct Record {
     pub(super) outlines: Range<u32>,
 }
 
-/// The filled area of a polygon.
+/// The filled area of a polygon, or of a part of a polygon, in a [`Drawing`].
 #[derive(Clone, Copy, Debug)]
 pub struct Path<'d> {
     drawing: &'d Drawing,
@@ -470,10 +471,11 @@ impl VisibilityMap<'_> {
     /// cycles. Polygons whose visible area is less than
     /// [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
     ///
-    /// A translucent polygon is drawn after the polygons behind it. If the polygon is in a cycle, it has
-    /// several paths, as in [`Drawing::translucent`]; each visible point of the polygon is in one path. Time
-    /// and memory are quadratic in the number of translucent polygons that overlap one another. If all
-    /// polygons are translucent, `Drawing::translucent` takes less time and memory.
+    /// A [translucent](super::ViewOptions::opacities) polygon is drawn after the polygons behind it. If the
+    /// polygon is in a cycle, it has several paths, as in [`Drawing::translucent`]; each visible point of
+    /// the polygon is in one path. Time and memory are quadratic in the number of translucent polygons that
+    /// overlap one another. If all polygons are translucent, `Drawing::translucent` takes less time and
+    /// memory.
     ///
     /// # Errors
     ///
@@ -599,15 +601,15 @@ impl Nodes {
 pub enum DisplayItem<'d> {
     /// A polygon, or a part of a polygon.
     Path(Path<'d>),
-    /// A part of a segment of an overlay's line.
+    /// A part of a segment of a line of an [overlay](crate::overlay::Overlay).
     Line(LineRun),
-    /// A point of an overlay.
+    /// A point of an [overlay](crate::overlay::Overlay).
     Marker(MarkerView),
 }
 
 impl Drawing {
-    /// Returns the [`paths`](Self::paths) in painting order, with the overlay's lines and points between
-    /// them.
+    /// Returns the [`paths`](Self::paths) in painting order, with the lines and points of the
+    /// [overlay](Self::translucent) between them.
     pub fn display_list(&self) -> impl Iterator<Item = DisplayItem<'_>> + Clone {
         let mut overlaid = self.overlaid.iter().peekable();
         let mut paths = self.paths();

@@ -13,7 +13,7 @@ const LEVEL: u8 = 7;
 const FONT: Name<'_> = Name(b"F");
 
 impl VectorPicture {
-    /// Returns the picture as a PDF of one page, with a point for each pixel.
+    /// Returns the picture as a PDF of one page. A pixel becomes a point, which is 1/72 inch.
     ///
     /// ```
     /// use binspace::drawing::VectorPicture;

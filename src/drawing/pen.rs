@@ -14,7 +14,7 @@ const CHOICES: usize = 8;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Polyline {
-    /// The points, from one end to the other. The last point of a closed line is its first.
+    /// The points, from one end to the other. The last point of a closed line equals the line's first point.
     pub points: Vec<[f64; 2]>,
     /// The indices, in the input, of the segments of the line, in drawing order. A line of n points has n − 1
     /// segments.

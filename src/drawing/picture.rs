@@ -148,7 +148,7 @@ impl Paint {
 }
 
 impl Stroke {
-    /// Creates a solid and opaque line of a width in pixels, with round ends.
+    /// Creates the style of solid and opaque lines of a width in pixels, with round ends.
     pub fn new(width: f64, colour: [u8; 3]) -> Self {
         Self { width, colour, opacity: 1.0, dashes: None, round_ends: true }
     }
@@ -159,7 +159,7 @@ impl Stroke {
         Self { opacity, ..self }
     }
 
-    /// Sets flat [`dashes`](Self::dashes); the lengths of a dash and of a gap are in pixels.
+    /// Sets [`dashes`](Self::dashes) with flat ends; the lengths of a dash and of a gap are in pixels.
     #[must_use]
     pub fn with_dashes(self, dash: f64, gap: f64) -> Self {
         Self { dashes: Some([dash, gap]), round_ends: false, ..self }
@@ -250,14 +250,16 @@ impl VectorPicture {
         Self { background: Some(colour), ..self }
     }
 
-    /// Adds the paths of a drawing. `paint` returns the paint of a polygon; it is called with the polygon's
-    /// number, once for each polygon that has a path. Paths with equal paint are [batched](Drawing::batched),
-    /// and opaque paths are [trapped](Drawing::trapped), which closes the seams between paths.
+    /// Adds the paths of a drawing. `paint` returns the [`Paint`] of a polygon, given the polygon's index.
+    /// `paint` is called once for each polygon that has a path. Paths with equal paint are
+    /// [batched](Drawing::batched), and opaque paths are [trapped](Drawing::trapped), which closes the seams
+    /// between paths.
     ///
     /// A stroke follows the polygon's own [edges](Path::edges). The stroke is painted directly after its
     /// path, so later paths cover the stroke. Drawings with strokes are not batched. The lines and points of
-    /// an overlay are not added. To add them, iterate over [`Drawing::display_list`]. To draw edges over all
-    /// paths, add polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
+    /// an [overlay](crate::overlay::Overlay) are not added. To add such lines and points, iterate over
+    /// [`Drawing::display_list`]. To draw edges over all paths, add polylines of
+    /// [`VisibilityMap::edges`](super::VisibilityMap::edges).
     pub fn add_drawing<P: Into<Paint>>(
         &mut self,
         drawing: &Drawing,

@@ -24,7 +24,8 @@ impl Drawing {
     /// `key` returns the key of the polygon with a given number, for example its colour. Paths that overlap
     /// keep their order, and no path moves across a line or a point of an [overlay](Self::display_list).
     /// Files are shorter if consecutive paths share a colour, and a plotter changes its pen less often.
-    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically.
+    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) batches drawings without strokes
+    /// automatically.
     ///
     /// The order is a greedy topological order. Several paths may be possible as the next path. If one of
     /// them has the key of the previous path, it is the next path. Otherwise, the next path has the most
@@ -222,11 +223,11 @@ impl Drawing {
     /// Extends the outlines of opaque polygons under their later opaque neighbours, so that almost no
     /// background shows in the seams.
     ///
-    /// Viewers blend the border pixels of each path with the pixels below. Where two polygons share an edge and
-    /// each covers half of a pixel, a quarter of the background still shows. Printers close such gaps by *trapping*
-    /// (ISO 32000-1, 14.11.6): the lower area is extended by about a pixel under the upper area. The upper
-    /// area is opaque and painted later, so the extension is not visible. `is_opaque` returns whether the
-    /// polygon with a given number is opaque. A side of an outline is extended if
+    /// Viewers blend the border pixels of each path with the pixels below. Where two polygons share an edge
+    /// and each polygon covers half of a pixel, a quarter of the background still shows. Printers close such
+    /// gaps by *trapping* (ISO 32000-1, 14.11.6): the lower area is extended by about a pixel under the
+    /// upper area. The upper area is opaque and painted later, so the extension is not visible. `is_opaque`
+    /// returns whether the polygon with a given number is opaque. A side of an outline is extended if
     ///
     /// - its own polygon is opaque;
     /// - a polygon that is painted later touches the side, and is opaque;
@@ -236,7 +237,7 @@ impl Drawing {
     /// No path is added, removed or moved; outlines only gain corners. An extended side is no longer an
     /// [edge](Path::edges) of its polygon.
     ///
-    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically. Takes
+    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) traps drawings automatically. Takes
     /// O(n log n) for n corners, unless the corners are spread very unevenly.
     #[must_use]
     pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {

@@ -11,7 +11,8 @@ use super::quadtree::{CUT, Leaf, VISITED, Visible};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
-/// A part of the picture in which the same polygons are visible, one behind the other.
+/// A part of the picture in which the same polygons are visible, one behind the other; see
+/// [`VisibilityMap::regions`].
 #[derive(Clone, Debug)]
 pub struct Region {
     polygons: Vec<usize>,

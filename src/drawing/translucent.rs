@@ -25,18 +25,20 @@ impl Drawing {
     /// Returns all polygons as filled outlines, including the parts behind other polygons. Paint the paths in
     /// order, each with its polygon's opacity. Each point of each polygon is in one path.
     ///
-    /// A polygon is split only if no painting order of whole polygons is found. Its parts are the tree's
-    /// fragments, joined where the joined parts still have a painting order from this viewpoint. A polygon
-    /// that is not planar and overlaps itself in the picture has at least one path for each of its triangles.
+    /// A polygon is split only if no painting order of whole polygons is found. The parts of the polygon are
+    /// the tree's [fragments](crate::Fragment), joined where the joined parts still have a painting order
+    /// from this viewpoint. A polygon that is not planar and overlaps itself in the picture has at least one
+    /// path for each of its triangles.
     ///
     /// The option [`front_faces_only`](ViewOptions::front_faces_only) applies. Polygons with opacity 0 are
-    /// left out; other opacities, and the least area, have no effect. If all polygons are opaque,
-    /// [`VisibilityMap::drawing`](super::VisibilityMap::drawing) returns fewer paths. Time and memory grow
-    /// with the number of pairs of polygons that overlap in the picture without a third polygon between them.
+    /// left out; other opacities, and the [least area](ViewOptions::least_area), have no effect. If all
+    /// polygons are opaque, [`VisibilityMap::drawing`](super::VisibilityMap::drawing) returns fewer paths.
+    /// Time and memory grow with the number of pairs of polygons that overlap in the picture without a third
+    /// polygon between them.
     ///
     /// # Lines and points
     ///
-    /// The lines and points of an overlay of the same tree are placed between the paths: see
+    /// The lines and points of an [overlay](Overlay) of the same tree are placed between the paths: see
     /// [`display_list`](Self::display_list). To paint them above all paths, paint the runs of
     /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last.
     ///

@@ -21,7 +21,7 @@ use super::plane::RoundedNormal;
 use super::split::Vertex;
 use super::{Faces, Int};
 
-/// The side of a plane on which a piece of a face lies.
+/// The side of a plane on which a piece of a [`PieceSet`](crate::choose::PieceSet) lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// No part of the piece is behind the plane.
@@ -30,7 +30,7 @@ pub enum Side {
     Back,
     /// The piece lies entirely on the plane.
     Coplanar,
-    /// The piece must be cut.
+    /// Parts of the piece are on both sides of the plane, so the plane must cut the piece.
     Spanning,
 }
 

@@ -21,9 +21,10 @@ use crate::memory::{collect, push, reserve};
 /// belongs to one input polygon.
 ///
 /// An input polygon becomes one face if it is convex, has at most 32 768 corners, and lies in one plane
-/// within the tolerance. Any other polygon becomes triangles. Three corners of a face, far apart, define the
-/// face's plane. Every other corner is moved onto this plane, parallel to an axis: the axis that is most
-/// nearly perpendicular to the plane. The grid point nearest to the moved corner is stored.
+/// within the [tolerance](crate::BspTree#exactness). Any other polygon becomes triangles. Three corners of a
+/// face, far apart, define the face's plane. Every other corner is moved onto this plane, parallel to an
+/// axis: the axis that is most nearly perpendicular to the plane. The grid point nearest to the moved corner
+/// is stored.
 #[derive(Clone, Default)]
 pub struct Faces {
     pub(crate) lattice: Lattice,
@@ -377,7 +378,7 @@ impl Faces {
         self.moved.truncate(self.moved.partition_point(|&(corner, _)| corner < corners));
     }
 
-    /// Returns the resident size in bytes.
+    /// Returns the memory that the faces occupy, in bytes.
     pub fn memory_usage(&self) -> usize {
         size_of_val(&*self.corners)
             + size_of_val(&*self.numbers)

@@ -101,7 +101,7 @@
 //! | mapped by its matrix to a line or a point | no piece |
 //! | seen edge-on within the rounding of the matrix; also a rectangle so far from its own origin that this rounding is as large as the area on the screen | no piece |
 //! | has numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸ (for example a matrix times 10⁻³¹⁰), or a product of the rectangle's sides below 2·10⁻³⁰⁸ (for example 10⁻¹⁷⁰ by 10⁻¹⁷⁰) | no piece |
-//! | smaller on the screen than 2⁻⁵² of the extent of all layers, to which positions are rounded | no piece |
+//! | smaller on the screen than 2⁻⁵² of the [extent](crate::BspTree#exactness) of all layers, to which positions are rounded | no piece |
 //! | any other layer | a convex polygon of at most ten corners, plus four for each ancestor that clips it; in one piece, or in several pieces if other layers cut it |
 //!
 //! Every other layer that is partly in the box has pieces. Only NaN, infinite and too large numbers are an
@@ -112,14 +112,14 @@
 //!
 //! # Why layers are clipped
 //!
-//! Near the eye's plane, divided coordinates are unbounded, and the default tolerance of a
-//! [`BspTree`](crate::BspTree) is a share of the scene's extent. Four pages of 30 layers above a floor that
-//! reaches behind the eye show the effect. If the parts with w ≥ 10⁻⁹ are divided by w and passed directly to
-//! a tree, the painting order is wrong at 67 to 97 % of the points where layers overlap. If the parts with
-//! w ≥ 10⁻⁶ are passed, one of the four pages is still wrong, at 42 % of these points. No page is wrong with
-//! the tolerance of this module, clipped to the viewport or [unclipped](Layers::unclipped). (Bench `peers`,
-//! section `clipping`.) Clipping to the viewport also leaves fewer layers to cut, because many layers of a
-//! long page are not on the screen.
+//! Near the eye's plane, divided coordinates are unbounded, and the [default
+//! tolerance](crate::BspTree#which-tolerance) of a [`BspTree`](crate::BspTree) is a share of the scene's
+//! extent. Four pages of 30 layers above a floor that reaches behind the eye show the effect. If the parts
+//! with w ≥ 10⁻⁹ are divided by w and passed directly to a tree, the painting order is wrong at 67 to 97 %
+//! of the points where layers overlap. If the parts with w ≥ 10⁻⁶ are passed, one of the four pages is still
+//! wrong, at 42 % of these points. No page is wrong with the tolerance of this module, clipped to the
+//! viewport or [unclipped](Layers::unclipped). (Bench `peers`, section `clipping`.) Clipping to the viewport
+//! also leaves fewer layers to cut, because many layers of a long page are not on the screen.
 //!
 //! # Antialiasing
 //!

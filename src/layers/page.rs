@@ -213,8 +213,8 @@ impl Layers {
         self.visible
     }
 
-    /// Returns the number of pieces. If it equals the number of [visible](Self::visible) layers, no layer is
-    /// cut.
+    /// Returns the number of pieces. If the number of pieces equals the number of [visible](Self::visible)
+    /// layers, no layer is cut.
     pub fn len(&self) -> usize {
         self.order.len()
     }

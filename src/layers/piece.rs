@@ -16,7 +16,8 @@ pub struct LayerPiece<'p> {
 }
 
 impl<'p> LayerPiece<'p> {
-    /// Returns the index of the piece's layer in the list.
+    /// Returns the index of the piece's layer in the list passed to
+    /// [`Layers::update`](super::Layers::update).
     pub fn layer(&self) -> usize {
         self.number
     }
@@ -41,10 +42,10 @@ impl<'p> LayerPiece<'p> {
         })
     }
 
-    /// Returns, for each edge of the piece, the number of the layer's edge that contains it. Edges of the
-    /// piece are in the order of the [vertices](Self::vertices), and each leads from a vertex to the next
-    /// vertex. [Antialias](super#antialiasing) only edges with a number: where pieces of one layer meet,
-    /// antialiasing would let the background through.
+    /// Returns, for each edge of the piece, the number of the layer's edge that contains the edge of the
+    /// piece. Edges of the piece are in the order of the [vertices](Self::vertices), and each leads from a
+    /// vertex to the next vertex. [Antialias](super#antialiasing) only edges with a number: where pieces of
+    /// one layer meet, antialiasing would let the background through.
     ///
     /// | number | edge |
     /// |---|---|

@@ -114,8 +114,8 @@ use crate::viewpoint::Ray;
 ///
 /// The order is as exact as the tree's order: the rules on the page of [`BspTree`](BspTree#order) apply to
 /// the polygons of the tree and of the overlay. Coplanar polygons are painted in input order: first the
-/// tree's polygons, then the overlay's polygons. The tree's fragments keep the order that they have without
-/// the overlay, and the overlay's pieces are inserted between them.
+/// tree's polygons, then the overlay's polygons. The tree's [fragments](BspTree#contents) keep the order
+/// that they have without the overlay, and the overlay's pieces are inserted between them.
 ///
 /// A line or a point, and another shape, are painted in this order:
 ///
@@ -158,7 +158,7 @@ use crate::viewpoint::Ray;
 /// |---|---|
 /// | [`replace_with`](Self::replace_with) | O(p · d) for p pieces and a tree of depth d, plus the build of small trees where pieces meet |
 /// | [`order`](Self::order), written or read | the time of the tree's order, plus a copy of its list |
-/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
+/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the bounding boxes of the overlay's pieces that the ray crosses; the first call computes the bounding boxes of the tree and of the pieces, in O(n) for n fragments and pieces |
 /// | [`welded_mesh`](Self::welded_mesh) | O(n + m log m) for n corners of the tree's polygons and m vertices of the overlay's pieces |
 ///
 /// A body of many polygons passes down the tree in little time: if its bounding box lies on one side of a
@@ -233,12 +233,12 @@ impl Overlay {
         self.bounds.take();
     }
 
-    /// Returns the number of pieces.
+    /// Returns the number of [pieces](Self#contents) and points.
     pub fn len(&self) -> usize {
         self.pieces.records.len()
     }
 
-    /// Returns whether there are no pieces.
+    /// Returns whether there is no piece and no point.
     pub fn is_empty(&self) -> bool {
         self.pieces.records.is_empty()
     }
@@ -272,11 +272,11 @@ impl Overlay {
     /// ```
     ///
     /// The rules of [`BspTree::hits`] apply to all polygons, and hits are exact. If the ray hits several
-    /// polygons at one point, the tree's polygons precede the overlay's polygons. All hits of the overlay are
-    /// found first, in time proportional to the number of the overlay's boxes that the ray crosses. The first
-    /// call after a [`replace`](Self::replace) computes the boxes of all pieces, in time proportional to the
-    /// number of pieces. The first call for a tree also computes the tree's boxes, in O(n) for n fragments,
-    /// like [`BspTree::bounds`].
+    /// polygons at one point, the tree's polygons precede the overlay's polygons. All hits of the overlay
+    /// are found first, in time proportional to the number of bounding boxes of the overlay's pieces that
+    /// the ray crosses. The first call after a [`replace`](Self::replace) computes the bounding boxes of all
+    /// pieces, in time proportional to the number of pieces. The first call for a tree also computes the
+    /// bounding boxes of the tree, in O(n) for n fragments, like [`BspTree::bounds`].
     ///
     /// # Errors
     ///

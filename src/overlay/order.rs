@@ -197,7 +197,8 @@ impl InsertionTree {
     }
 }
 
-/// The order of a tree's fragments and an overlay's pieces for one viewpoint: [`Overlay::order`].
+/// The order of a tree's [fragments](BspTree#contents) and an overlay's [pieces](Overlay#contents) for one
+/// viewpoint: [`Overlay::order`].
 ///
 /// The order is back to front; [`front_to_back`](Self::front_to_back) reverses it. To read the order, write
 /// it as a list of numbers ([`write_into`](Self::write_into)), or iterate over its [`Shape`]s.
@@ -271,8 +272,8 @@ impl<'a> OverlayOrder<'a> {
     ///
     /// | order | time | memory |
     /// |---|---|---|
-    /// | not culled | the time of [`BspTree::back_to_front_into`], plus a copy of the list, plus one comparison with the eye for each plane on the way from the root to a piece | the buffer, also as working space; once it is large enough, nothing is allocated |
-    /// | culled | the time of the tree's [culled order](crate::Order::write_into), plus all planes on the way from the root to a piece; the first culled order after a [`replace`](Overlay::replace) also computes the boxes of the pieces | allocates working space |
+    /// | not culled | the time of [`BspTree::back_to_front_into`], plus a copy of the list, plus one comparison with the eye for each plane on the way from the tree's root to a piece | the buffer, also as working space; once it is large enough, nothing is allocated |
+    /// | culled | the time of the tree's [culled order](crate::Order::write_into), plus the time for all planes on the way from the tree's root to a piece; the first culled order after a [`replace`](Overlay::replace) also computes the bounding boxes of the pieces | allocates working space |
     /// | of an empty overlay | the time of the tree's order | as for the tree's order |
     pub fn write_into(self, numbers: &mut Vec<u32>) {
         let Self { overlay, order } = self;

@@ -17,9 +17,10 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is neither the
-    /// tree that the overlay was made for nor a clone of it. After an error the overlay is empty. If a
-    /// polygon caused the error, [`Error::polygon`] is its index in `polygons`, from 0.
+    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's [grid](crate::BspTree#exactness);
+    /// or if the tree is neither the tree that the overlay was made for nor a clone of it. After an error
+    /// the overlay is empty. If a polygon caused the error, [`Error::polygon`] is its index in `polygons`,
+    /// from 0.
     pub fn replace<P: Polygon>(
         &mut self,
         tree: &BspTree,
@@ -167,7 +168,8 @@ impl<P, L, Q> Shapes<P, L, Q> {
     }
 }
 
-/// An item of a merged order: a fragment of the tree, or a piece of the overlay's input.
+/// An item of an [`OverlayOrder`](super::OverlayOrder): a fragment of the tree, a [piece](Overlay#contents)
+/// of a polygon or of a line of the overlay, or a point of the overlay.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum Shape<'a> {
@@ -180,7 +182,8 @@ pub enum Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    /// Returns the piece's number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
+    /// Returns the number of the fragment, piece or point, as in
+    /// [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
     pub fn index(&self) -> u32 {
         match self {
             Self::Fragment(fragment) => fragment.index(),
@@ -198,7 +201,8 @@ impl<'a> Shape<'a> {
     }
 }
 
-/// A piece of a segment. A segment joins two consecutive corners of an overlay's line.
+/// A [piece](Overlay#contents) of a segment. A segment joins two consecutive corners of a line of an
+/// [`Overlay`].
 #[derive(Clone, Copy, Debug)]
 pub struct Segment<'a> {
     /// Two vertices on the segment's face.
@@ -222,9 +226,9 @@ impl Segment<'_> {
         self.number as usize
     }
 
-    /// Returns the two ends of the piece, in the direction of the line. An end at a corner of the line is the
-    /// corner, rounded to the grid. An end at a cut is rounded like [`Fragment::vertices`]. Two pieces that
-    /// meet at a cut have bit for bit the same end there.
+    /// Returns the two ends of the piece, in the direction of the line. An end at a corner of the line is
+    /// the corner, rounded to the tree's [grid](crate::BspTree#exactness). An end at a cut is rounded like
+    /// [`Fragment::vertices`]. Two pieces that meet at a cut have bit for bit the same end there.
     pub fn ends(&self) -> [DVec3; 2] {
         let mut ends = self.piece.vertices();
         [(); 2].map(|()| ends.next().unwrap_or_default())
@@ -248,7 +252,7 @@ impl Segment<'_> {
     }
 }
 
-/// A point of an overlay.
+/// A point of an [`Overlay`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
     index: u32,
@@ -257,7 +261,7 @@ pub struct Marker {
 }
 
 impl Marker {
-    /// Returns the piece's number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
+    /// Returns the point's number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
     pub fn index(&self) -> u32 {
         self.index
     }
@@ -267,15 +271,15 @@ impl Marker {
         self.point as usize
     }
 
-    /// Returns the given point, rounded to the grid.
+    /// Returns the given point, rounded to the tree's [grid](crate::BspTree#exactness).
     pub fn position(&self) -> DVec3 {
         self.position
     }
 }
 
 impl Overlay {
-    /// Returns the piece that has a given number in orders. Returns `None` if a fragment of the tree, or no
-    /// shape, has this number.
+    /// Returns the piece or point that has a given number in orders. Returns `None` if a fragment of the
+    /// tree, or no shape, has this number.
     pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
         let face = self.record(number)?.face;
         let piece = self.stored(number);
@@ -293,7 +297,8 @@ impl Overlay {
         })
     }
 
-    /// Returns the piece of a polygon with a number; `None` if the number belongs to no piece of a polygon.
+    /// Returns the piece of a polygon that has a given number in orders; `None` if no piece of a polygon has
+    /// this number.
     pub fn piece(&self, number: u32) -> Option<Fragment<'_>> {
         self.shape(number)?.fragment()
     }

@@ -11,7 +11,7 @@ use super::rays::{Given, Rays};
 use crate::exact::{Faces, PlaneId};
 use crate::random::mix;
 
-/// The nearest face in each pixel, and the nearness of that face.
+/// The nearest [face](super) in each pixel, and the [depth](Self::depths) of that face.
 #[derive(Clone, Debug)]
 pub struct DepthImage {
     image: Image,
@@ -79,12 +79,12 @@ impl Nearness {
     }
 }
 
-/// Returns the nearest face in each pixel. If faces are at exactly the same distance, the face of the later
-/// polygon counts as nearest, as if it were painted over the others.
+/// Returns the nearest [face](super) in each pixel. If faces are at exactly the same distance, the face of
+/// the polygon that is later in input order counts as nearest, as if it were painted over the others.
 ///
 /// # Panics
 ///
-/// If the rays were made for another grid.
+/// If the rays were made for another [grid](crate::BspTree::grid) than the grid of the faces.
 pub fn zbuffer(rays: &Rays, faces: &Faces) -> DepthImage {
     zbuffer_and(rays, faces, |_, _, _| {})
 }
@@ -193,7 +193,7 @@ pub enum Verdict {
     Empty,
     /// The right polygon is painted.
     Right,
-    /// The painted polygon is not the nearest, but the tolerance allows either order.
+    /// The painted polygon is not the nearest, but the tolerance allows either order: see [`compare`].
     Contested,
     /// Another polygon hides the painted polygon.
     WrongOrder,
@@ -203,14 +203,14 @@ pub enum Verdict {
     Spill,
 }
 
-/// The differences between a painted picture and the true one.
+/// The differences between a painted picture and the true picture: the result of [`compare`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Comparison {
     /// The number of pixels in which the true picture shows a polygon.
     pub covered: usize,
-    /// The number of pixels that show another polygon than the nearest, where the tolerance allows either
-    /// order of the two.
+    /// The number of pixels that show another polygon than the nearest polygon, where the tolerance allows
+    /// either order of these two polygons: see [`compare`].
     pub contested: usize,
     /// The number of pixels that show a polygon that another polygon hides.
     pub wrong_order: usize,
@@ -236,21 +236,23 @@ const MOVED_CORNERS: f64 = 4.0;
 
 /// Compares a painted picture with a true picture, both made with the same rays.
 ///
-/// Polygons are compared, not faces: two faces of one polygon are equal. Let τ be the coplanar tolerance. A
-/// pixel that shows the wrong polygon is *contested*, not wrong, in one of these cases:
+/// Polygons are compared, not faces: two faces of one polygon are equal. Let τ be the coplanar
+/// [tolerance](crate::BspTree#exactness). A pixel that shows the wrong polygon is *contested*, not wrong, in
+/// one of these cases:
 ///
 /// - the pixel's ray meets the painted face and the true face at exactly the same distance;
 /// - the ray meets the painted face within 2 τ of the true face's plane, and the true face within 2 τ of the
 ///   painted face's plane.
 ///
-/// The reason for the second case: if two polygons are both within τ of a partition plane, both count as
-/// lying on this plane, and they are painted in input order. With τ = 0 only the first case occurs.
+/// The reason for the second case: if two polygons are both within τ of a [partition
+/// plane](crate::BspTree#contents), both count as lying on this plane, and they are painted in input order.
+/// With τ = 0 only the first case occurs.
 ///
 /// This rule uses only the polygons. [`verify`](crate::verify::verify()) also uses the partition planes.
 ///
 /// # Panics
 ///
-/// If the rays were made for another grid.
+/// If the rays were made for another [grid](crate::BspTree::grid) than the grid of the faces.
 pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Comparison {
     rays.expect(faces);
     let tolerance = faces.tolerance();

@@ -6,15 +6,15 @@
 //! depth buffer make the *same* picture; if the pictures differ, one of the two is wrong. This module judges
 //! orders, so it ignores how an order was computed.
 //!
-//! This module shares no arithmetic with the builder. Planes are computed from the faces' corners by separate
-//! code, so a mistake in the builder's arithmetic is not repeated here, and becomes visible as wrong pixels.
-//! The module and the builder share only this input:
+//! This module shares no arithmetic with the builder of trees. Planes are computed from the faces' corners
+//! by separate code, so a mistake in the builder's arithmetic is not repeated here, and becomes visible as
+//! wrong pixels. The module and the builder share only this input:
 //!
 //! - the faces' corners, rounded to the [grid](crate::Grid);
 //! - for each face, the three corners that define its plane, and the axis along which its other corners are
 //!   moved to that plane;
 //! - the eye, rounded to the grid;
-//! - for each side of a fragment, the number of the edge or plane that made this side.
+//! - for each side of a [fragment](crate::Fragment), the number of the edge or plane that made this side.
 
 mod coverage;
 mod exact;

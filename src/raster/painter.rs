@@ -88,10 +88,10 @@ pub(crate) fn covers(rays: &Rays, faces: &Faces, piece: Piece<'_>, [x, y]: [u32;
     Coverage::new(rays, faces, piece.face, piece.outline).is_some_and(|piece| piece.covers(x, y))
 }
 
-/// Face number for "no face".
+/// The number that [`Image::faces`] contains for a pixel without a face.
 pub const NONE: u32 = u32::MAX;
 
-/// The visible face in each pixel, row by row from the top left.
+/// The number of the visible [face](super) in each pixel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     pub(super) size: [u32; 2],
@@ -106,7 +106,7 @@ impl Image {
         Self { size, faces: vec![NONE; pixels], drawn: 0 }
     }
 
-    /// Creates a picture with the given face in each pixel, and the number of times that pixels were covered.
+    /// Creates a picture with the given face in each pixel, and the result of [`drawn`](Self::drawn).
     pub fn from_faces(size: [u32; 2], faces: Vec<u32>, drawn: u64) -> Self {
         debug_assert_eq!(faces.len(), size[0] as usize * size[1] as usize);
         Self { size, faces, drawn }
@@ -117,7 +117,8 @@ impl Image {
         self.size
     }
 
-    /// Returns the face in each pixel, row by row from the top left; [`NONE`] for a pixel without a face.
+    /// Returns the number of the face in each pixel, row by row from the top left; [`NONE`] for a pixel
+    /// without a face.
     pub fn faces(&self) -> &[u32] {
         &self.faces
     }
@@ -127,7 +128,8 @@ impl Image {
         self.faces.iter().filter(|&&face| face != NONE).count()
     }
 
-    /// Returns the number of times that pieces covered pixels, including overdrawn pixels.
+    /// Returns the number of pixels drawn, summed over all faces and pieces of faces. A pixel counts each
+    /// time that it is drawn.
     pub fn drawn(&self) -> u64 {
         self.drawn
     }
@@ -167,7 +169,7 @@ pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
 ///
 /// # Panics
 ///
-/// If the rays were made for another grid.
+/// If the rays were made for another [grid](crate::BspTree::grid) than the grid of the faces.
 pub fn picture(
     rays: &Rays,
     faces: &Faces,

@@ -20,13 +20,13 @@ use crate::viewpoint::Viewpoint;
 /// | parallel | through the point base + x·right + y·down, in the same direction for all pixels |
 ///
 /// The rays *define* the picture: the camera is rounded once, and every later decision is exact. Rounding
-/// moves a ray by less than a thousandth of a pixel, unless the camera is more than a million extents of the
-/// scene away. Views too narrow for this precision are an error. The eye and the direction are rounded as for
-/// orders; see [`Viewpoint`](crate::Viewpoint).
+/// moves a ray by less than a thousandth of a pixel, unless the camera is more than a million
+/// [extents](crate::BspTree#exactness) of the scene away. Views too narrow for this precision are an error.
+/// The eye and the direction are rounded as for orders; see [`Viewpoint`](crate::Viewpoint).
 ///
 /// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
-/// such as the cells of a partition, may share rays. A function that takes rays and faces of different grids
-/// panics.
+/// such as the trees of the cells of a [partition](crate::partition), may share rays. A function that takes
+/// rays and faces of different grids panics.
 #[derive(Clone, Debug)]
 pub struct Rays {
     lattice: Lattice,
@@ -272,7 +272,7 @@ impl Rays {
         self.size
     }
 
-    /// Returns the camera's viewpoint, for ordering fragments.
+    /// Returns the camera's viewpoint, for ordering [fragments](crate::BspTree#contents).
     pub fn viewpoint(&self) -> Viewpoint {
         self.viewpoint
     }

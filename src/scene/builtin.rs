@@ -96,7 +96,8 @@ impl Builtin {
         }
     }
 
-    /// Returns the meaning of the size; `None` for scenes of one size.
+    /// Returns the meaning of the size of [`build`](Self::build), for example `squares`; `None` for scenes
+    /// of one size.
     pub fn size_meaning(self) -> Option<&'static str> {
         self.size().map(|(_, meaning)| meaning)
     }
@@ -113,7 +114,7 @@ impl Builtin {
         self.size().map(|_| sizes)
     }
 
-    /// Returns whether the seed matters.
+    /// Returns whether the scene depends on the `seed` of [`build`](Self::build).
     pub fn is_seeded(self) -> bool {
         matches!(self.row().2, Recipe::Seeded(..))
     }

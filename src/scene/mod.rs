@@ -32,9 +32,9 @@ use crate::Polygon;
 
 /// Polygons with colours.
 ///
-/// Polygons are numbered from 0, in the order in which they were added. A scene accepts every polygon. A tree
-/// of the scene drops polygons without area. Infinite coordinates and NaN are an error only when a tree is
-/// built.
+/// Polygons are numbered from 0, in the order in which they were added. A scene accepts every polygon. A
+/// [tree](crate::BspTree#contents) of the scene drops polygons without area. Infinite coordinates and NaN
+/// are an error only when a tree is built.
 ///
 /// ```
 /// use binspace::glam::DVec3;
@@ -215,12 +215,13 @@ impl Scene {
     }
 
     /// Returns the precision of the coordinates: the largest distance of a corner from the plane in which it
-    /// was meant to lie. The default tolerance depends on this distance.
+    /// was meant to lie. The [default tolerance](crate::BspTree#which-tolerance) of a tree depends on this
+    /// distance.
     ///
     /// For a scene from an OBJ file, the precision is four units in the last decimal that the coordinates
-    /// need. (Suppose that rounding moves the corners of a parallelogram by half a unit along each axis. Then
-    /// one corner may be three and a half units off the plane of the three others.) In generated scenes the
-    /// precision is 0. Change it with [`with_precision`](Self::with_precision).
+    /// need. (Suppose that rounding moves the corners of a parallelogram by half a unit along each axis.
+    /// Then one corner may be three and a half units off the plane of the three others.) In generated scenes
+    /// the precision is 0. [`with_precision`](Self::with_precision) changes the precision.
     pub fn precision(&self) -> f64 {
         self.precision
     }

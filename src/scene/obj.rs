@@ -39,8 +39,8 @@ impl Scene {
     ///   coordinates with fewer digits. If at most 1 % of the coordinates are outliers, only the first three
     ///   digits of outliers count.
     /// - If 99 % of the coordinates with nine or more digits equal an `f32` after rounding to the written
-    ///   digits, the file counts as written from `f32`. Then the unit is the `f32` step of the largest
-    ///   coordinate.
+    ///   digits, the file counts as written from `f32`. Then the unit is the distance from the largest
+    ///   coordinate to the next larger `f32`.
     ///
     /// A face's colour is the `Kd` of its material, read as sRGB. The opacity is the material's `d` or `Tr`.
     /// A missing or unreadable library is not an error: the report lists the library, and its materials
@@ -396,14 +396,15 @@ fn of_file(name: &str, problem: impl Into<Problem>) -> Error {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ObjReport {
-    /// The number of `f` lines, including degenerate faces. It equals the scene's number of polygons.
+    /// The number of `f` lines, including degenerate faces. This number equals the scene's number of
+    /// polygons.
     pub faces: usize,
     /// The number of faces with fewer than three different corner positions. Such faces stay in the scene, so
     /// that polygons are numbered as in the file.
     pub degenerate_faces: usize,
-    /// The number of `p` lines.
+    /// The number of `p` lines (points), which are left out.
     pub skipped_points: usize,
-    /// The number of `l` lines.
+    /// The number of `l` lines (polylines), which are left out.
     pub skipped_lines: usize,
     /// The number of malformed `vt` and `vn` lines, plus the number of invalid references from corners to
     /// such lines. A corner with an invalid reference has no texture coordinates, or no normal.
