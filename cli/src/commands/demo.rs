@@ -102,7 +102,7 @@ fn show(
             let seen = verify(&tree, view).map_err(|error| camera::about(scene, &error))?;
             add(&mut found, &seen.comparison);
             for fault in unseen_faults(&seen) {
-                progress.suspend(|| note(&format!("{heuristic}: {fault}")));
+                progress.suspend(|| note(&format!("{builtin}, {heuristic}: {fault}")));
             }
             all_right &= seen.is_right();
             progress.step();
@@ -158,11 +158,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wrong_pixels_are_counted() {
+    fn wrong_pixels_and_orders_are_reported() {
         let mut total = Comparison::default();
         (total.covered, total.contested) = (9, 1);
         let verdict = |total: &Comparison, right| strip_str(&verdict(total, right)).to_string();
         assert_eq!(verdict(&total, true), "  no pixel is wrong, 1 contested");
+        let orders = "  no pixel is wrong, but orders are: see the notes, 1 contested";
+        assert_eq!(verdict(&total, false), orders);
         total.holes = 2;
         assert_eq!(verdict(&total, false), "  2 pixels are wrong, 1 contested");
     }
