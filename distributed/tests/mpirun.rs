@@ -65,6 +65,16 @@ fn same_on_all(folder: &Path, scene: &str, views: &[&str], least: usize) {
     }
 }
 
+/// The shortest test of ranks that exchange pieces.
+#[test]
+#[ignore = "needs mpirun of Open MPI"]
+fn two_ranks_paint_the_picture_of_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let expected = picture(folder.path(), 1, "cloud:400 --size 128x96 --alone");
+    assert!(covered(&expected) >= 1000);
+    assert!(picture(folder.path(), 2, "cloud:400 --size 128x96") == expected);
+}
+
 const FAR_AND_INSIDE: [&str; 2] = ["", "--eye=5,3,1 --target=40,30,20"];
 
 #[test]
