@@ -172,6 +172,8 @@ pub(crate) struct Division {
     pub(crate) plane: Option<PreparedPlane>,
     /// The side of each piece.
     pub(crate) sides: Vec<Side>,
+    /// The pieces that may come within twice the tolerance of the plane, except those on it.
+    pub(crate) near: Vec<u32>,
     /// The number of pieces on each side, indexed by [`Side`].
     counts: [usize; 4],
 }
@@ -189,10 +191,15 @@ impl Division {
         (self.plane, self.counts) = (Some(plane), [0; 4]);
         self.sides.clear();
         self.sides.reserve_exact(pieces.len());
-        for piece in pieces {
-            let side = piece.side(faces, &plane, arena);
+        self.near.clear();
+        for (piece, number) in pieces.iter().zip(0..) {
+            let cut = piece.cut_vertices(arena);
+            let (side, is_near) = plane.classify_and_reach(faces, piece.face, cut);
             self.counts[side as usize] += 1;
             self.sides.push(side);
+            if is_near && side != Side::Coplanar {
+                self.near.push(number);
+            }
             if side == Side::Spanning && self.count(side) > most {
                 return false;
             }

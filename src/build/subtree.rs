@@ -4,14 +4,12 @@ use std::mem::take;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use smallvec::SmallVec;
-
-use super::choose::{Choice, ChooseContext, Chooser, Peeled, Set, Tuning};
+use super::choose::{Choice, ChooseContext, Chooser, Peeled, Set, Tuning, settle};
 use super::jobs::{Job, Output, is_worth_a_job};
 use super::options::BuildOptions;
 use super::piece::{Division, Piece, Splitter};
 use crate::error::{Error, Kind};
-use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
+use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
 use crate::memory::{collect, reserve};
 use crate::progress::Watch;
 use crate::tree::node::MOST_FRAGMENTS;
@@ -374,84 +372,6 @@ fn is_leaf(pieces: &[Piece]) -> bool {
 
 /// Cutting a piece counts as the work of classifying this many pieces.
 const CUT: usize = 64;
-
-/// The faces whose planes were rejected for a set. No plane is tried twice, so the search ends.
-type Tried = SmallVec<[u32; 4]>;
-
-/// Classifies a set by a plane. If the plane would cut a polygon that counts as coplanar with the plane's own
-/// polygon, classifies the set by the plane of the larger polygon instead.
-///
-/// The corners of small and large polygons are rounded by the same amount, so the plane of a small polygon is
-/// less certain. Extended across a large polygon in the same plane, the small polygon's plane can deviate by
-/// more than the tolerance on both sides. The small polygon is within the tolerance of the large polygon's
-/// plane, which divides the set instead. In frames the larger polygon's plane also replaces a small polygon's
-/// plane that passes beside the large polygon and cuts nothing. Otherwise the small polygon's plane would
-/// separate polygons that lie in one plane.
-fn settle(
-    rules: &ChooseContext<'_>,
-    set: &Set<'_>,
-    division: &mut Division,
-    mut plane: PlaneId,
-) -> Result<(), Error> {
-    let mut tried = Tried::new();
-    loop {
-        if division.plane.is_none() {
-            rules.watch.work(set.pieces.len())?;
-            set.divide(plane, usize::MAX, division);
-        }
-        let PlaneKind::Face(face) = plane.kind() else { return Ok(()) };
-        // In trees of frames, no piece beside the plane may be larger than the plane's own piece.
-        let least = match rules.tuning.frames {
-            Some(_) => {
-                let own = set.pieces.iter().filter(|piece| piece.face == face);
-                own.map(size).fold(0.0, f64::max)
-            }
-            _ if division.count(Side::Spanning) == 0 => return Ok(()),
-            _ => f64::INFINITY,
-        };
-        tried.push(face);
-        let is_rival = |(piece, side): &(&Piece, &Side)| match side {
-            Side::Spanning => !tried.contains(&piece.face),
-            Side::Coplanar => false,
-            Side::Front | Side::Back => size(piece) > least && !tried.contains(&piece.face),
-        };
-        let rivals = set.pieces.iter().zip(&division.sides).filter(is_rival);
-        let Some(larger) = larger(rules, set, face, rivals.map(|(piece, _)| piece))? else {
-            return Ok(());
-        };
-        plane = PlaneId::face(larger.face);
-        division.plane = None;
-    }
-}
-
-/// The square of the diagonal of a piece's box.
-fn size(piece: &Piece) -> f64 {
-    (0..3).map(|axis| (piece.max[axis] - piece.min[axis]).powi(2)).sum()
-}
-
-/// Returns the largest piece whose plane contains a face.
-fn larger<'p>(
-    rules: &ChooseContext<'_>,
-    set: &Set<'_>,
-    face: u32,
-    pieces: impl Iterator<Item = &'p Piece>,
-) -> Result<Option<&'p Piece>, Error> {
-    let faces = set.faces;
-    let mut best: Option<(f64, &Piece)> = None;
-    for piece in pieces {
-        rules.watch.work(1)?;
-        let lies_on = || {
-            let plane = set.prepare(PlaneId::face(piece.face));
-            // Most planes are far from the first corner.
-            plane.distance(faces.corners(face)[0]).abs() <= plane.slack()
-                && plane.classify(faces, face, None) == Side::Coplanar
-        };
-        if best.is_none_or(|(most, _)| size(piece) > most) && lies_on() {
-            best = Some((size(piece), piece));
-        }
-    }
-    Ok(best.map(|(_, piece)| piece))
-}
 
 /// The budget shared by all jobs of a build.
 struct Budget {

@@ -15,6 +15,8 @@
 
 use std::cmp::Ordering;
 
+use glam::DVec3;
+
 use super::lattice::LIMIT;
 use super::names::{PlaneId, PlaneKind, VertexId};
 use super::plane::RoundedNormal;
@@ -80,6 +82,11 @@ impl PreparedPlane {
                 PreparedPlane { plane, normal, offset, bound: FACE_ERROR * size, band }
             }
         }
+    }
+
+    /// The rounded normal, of length 1.
+    pub(crate) fn unit_normal(&self) -> DVec3 {
+        DVec3::from_array(self.normal).normalize_or_zero()
     }
 
     /// The name of the plane.
@@ -148,8 +155,19 @@ impl PreparedPlane {
     /// `cut` contains the vertices of a piece that was cut, in order; it is `None` for the whole face.
     #[inline]
     pub fn classify(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> Side {
+        self.classify_and_reach(faces, face, cut).0
+    }
+
+    /// The same side, and whether the piece may come within twice the tolerance of the plane.
+    #[inline]
+    pub(crate) fn classify_and_reach(
+        &self,
+        faces: &Faces,
+        face: u32,
+        cut: Option<&[Vertex]>,
+    ) -> (Side, bool) {
         if self.plane == PlaneId::face(face) {
-            return Side::Coplanar;
+            return (Side::Coplanar, true);
         }
         let (low, high) = match (cut, faces.corners(face)) {
             (Some(vertices), _) => self.extent(vertices.iter().map(|vertex| vertex.position)),
@@ -158,6 +176,20 @@ impl PreparedPlane {
             (None, &[a, b, c, d]) => self.extent([a, b, c, d].into_iter()),
             (None, corners) => self.extent(corners.iter().copied()),
         };
+        let twice = 2.0 * self.band + self.bound;
+        let reaches = low <= twice && high >= -twice;
+        (self.side_of_extent(faces, face, cut, [low, high]), reaches)
+    }
+
+    /// The side of a piece whose rounded vertices extend from `low` to `high`.
+    #[inline]
+    fn side_of_extent(
+        &self,
+        faces: &Faces,
+        face: u32,
+        cut: Option<&[Vertex]>,
+        [low, high]: [f64; 2],
+    ) -> Side {
         // A distance above `near` is certainly not 0; a distance above `far` certainly exceeds the tolerance.
         let (near, far) = (self.bound, self.band + self.bound);
         // The tolerance applies to the corners of the whole face. So a whole face may reach behind by the
@@ -320,8 +352,6 @@ fn compare_exactly(
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
     use crate::random::SplitMix64;
 

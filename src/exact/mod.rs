@@ -1,6 +1,7 @@
 //! Exact arithmetic: the scene lattice, faces on it, planes, vertices, predicates, and the split.
 
 mod classify;
+mod coplanar;
 pub(crate) mod eye;
 pub(crate) mod faces;
 pub(crate) mod half_space;

@@ -2,6 +2,7 @@
 //! integers judge the order.
 
 mod cases;
+mod decals;
 mod extend;
 mod faults;
 mod frames;

@@ -3,12 +3,13 @@
 //! All choices go through `Chooser::choose`. `given` is the caller's function, which has priority. `auto` is
 //! the default heuristic; `own` contains the heuristics that only try the pieces' own planes, and compares
 //! these planes. `axis_planes` finds planes perpendicular to the axes. `frame_planes` finds a good enough own
-//! plane for a small set in frames. `peel` finds pieces that planes at the boundary of a set separate without
+//! plane for a small set in frames. `coplanar` keeps coplanar pieces together. `peel` finds pieces that planes at the boundary of a set separate without
 //! a cut. `cost` compares planes. `tuning` contains the constants, and `set` contains a set's pieces, exact
 //! and rounded.
 
 mod auto;
 mod axis_planes;
+mod coplanar;
 mod cost;
 mod frame_planes;
 mod given;
@@ -27,6 +28,7 @@ use auto::Auto;
 use given::SortedCorners;
 use own::Scored;
 
+pub(super) use coplanar::settle;
 pub(super) use given::GivenChooser;
 pub use given::{PieceSet, SplitPlane};
 pub(super) use peel::Peeled;

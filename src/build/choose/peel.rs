@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use smallvec::SmallVec;
+
+use super::coplanar::larger;
 use super::set::{LANES, PackedBox, PackedPieces, PackedPlane, Reach, Set};
 use super::tuning::Tuning;
 use crate::bits::bits;
@@ -71,6 +74,8 @@ pub(super) struct Peeler {
     stack: Vec<Node>,
     /// The current piece and the pieces on its plane, which are separated together.
     own: Vec<u32>,
+    /// Other pieces near the current plane, by their numbers in the set.
+    beside: Vec<u32>,
 }
 
 /// Indices into `witnesses`.
@@ -210,14 +215,16 @@ impl Search<'_, '_> {
     /// plane. Returns the number of separated pieces.
     fn take(&mut self, p: usize, plane: PlaneId) -> usize {
         let prepared = self.set.prepare(plane);
-        let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;
+        let Peeler { left, witnesses, near, own, beside, .. } = &mut *self.lists;
         own.clear();
         own.push(p as u32);
+        beside.clear();
         let held = witnesses;
         for &q in &*near {
             let side = self.set.classify(&prepared, self.sketch.number(q as usize));
-            if side == Side::Coplanar {
-                own.push(q);
+            match side {
+                Side::Coplanar => own.push(q),
+                _ => beside.push(self.sketch.number(q as usize) as u32),
             }
             if matches!(side, Side::Front | Side::Spanning) {
                 held[FRONT] = q;
@@ -234,9 +241,18 @@ impl Search<'_, '_> {
             [_, NO_PIECE] => Side::Front,
             _ => return 0,
         };
-        for q in &mut *own {
+        let numbers = |places: &[u32]| -> SmallVec<[u32; 8]> {
+            places.iter().map(|&q| self.sketch.number(q as usize) as u32).collect()
+        };
+        let separated = numbers(own);
+        // A piece beside the plane that is coplanar with one of these comes first, with its own plane.
+        let pieces: [&[u32]; 2] = [&separated, beside];
+        if !matches!(larger(self.set, &prepared, pieces, |_| false, &[], self.watch), Ok(None)) {
+            return 0;
+        }
+        for (q, number) in own.iter_mut().zip(separated) {
             left[*q as usize / LANES] &= !(1 << (*q as usize % LANES));
-            *q = self.sketch.number(*q as usize) as u32;
+            *q = number;
         }
         self.peeled.push(plane, rest, own);
         own.len()

@@ -21,6 +21,8 @@ pub(super) struct PackedPieces {
     middle: DVec3,
     /// The largest error of a distance, plus the tolerance, in lattice units like all coordinates.
     slack: f32,
+    /// The tolerance, in lattice units.
+    tolerance: f32,
     /// The vertices of each group of pieces: the first vertices of all four pieces, then the second vertices,
     /// and so on. A piece with fewer vertices repeats its last vertex.
     rows: Vec<[Vec4; 3]>,
@@ -41,7 +43,7 @@ pub(super) struct PackedPlane {
 }
 
 /// Pieces of a group as bits: the pieces that certainly reach in front of a plane, the pieces that certainly
-/// reach behind it, and the pieces that come within the slack of the plane.
+/// reach behind it, and the pieces that may come within twice the tolerance of the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub(super) front: u8,
@@ -77,7 +79,8 @@ impl PackedPieces {
         // than 7 ε. Vertex and point are off by 1.5 lattice units in each coordinate: 3√3. The tolerance is
         // rounded to `f32` and in two sums: 3 u times the tolerance, less than 2 ε times.
         let tolerance = set.faces.tolerance() * (1.0 + 2.0 * f64::from(f32::EPSILON));
-        self.slack = size as f32 * 7.0 * f32::EPSILON + 6.0 + tolerance as f32;
+        self.tolerance = tolerance as f32;
+        self.slack = size as f32 * 7.0 * f32::EPSILON + 6.0 + self.tolerance;
     }
 
     /// Adds pieces of the set, by number.
@@ -165,10 +168,12 @@ impl PackedPieces {
     pub(super) fn reach(&self, plane: &PackedPlane, group: usize) -> Reach {
         let plane = Splat::new(plane, self.slack);
         let (low, high) = plane.extents(&self.rows[self.rows_of(group..group + 1)]);
+        let tolerance = Vec4::splat(self.tolerance);
         Reach {
             front: high.cmpgt(plane.above).bitmask() as u8,
             back: low.cmplt(plane.below).bitmask() as u8,
-            near: (low.cmple(plane.above).bitmask() & high.cmpge(plane.below).bitmask()) as u8,
+            near: (low.cmple(plane.above + tolerance).bitmask()
+                & high.cmpge(plane.below - tolerance).bitmask()) as u8,
         }
     }
 

@@ -1,0 +1,81 @@
+//! Whether two faces lie in one plane: the one place that decides it.
+//!
+//! Two faces are *coplanar* if every corner of the smaller face is within the tolerance of the larger face's
+//! plane. The corners of all faces are rounded by the same amount, so the plane of a small face is less
+//! certain. Extended across a large face, it can deviate from that face by many times the tolerance. So the
+//! plane of the larger face decides. With τ = 0, faces are coplanar if their planes are equal.
+//!
+//! The relation is symmetric, but not transitive: two faces can be coplanar with a third and up to 2 τ apart.
+
+use glam::DVec3;
+
+use super::plane::RoundedNormal;
+use super::{Faces, PlaneId, PreparedPlane, Side};
+
+impl Faces {
+    /// Twice the area of the reference triangle of a face, with a relative error of at most 2⁻³⁴, in square
+    /// lattice units. Of two faces, the face with the larger triangle has the more certain plane.
+    #[inline]
+    pub(crate) fn size(&self, face: u32) -> f64 {
+        self.normal_length(face, &RoundedNormal::through(self.triangle(face)))
+    }
+
+    /// The least height of a face's reference triangle, rounded, in lattice units. The face is at least half as
+    /// wide in every direction.
+    pub(crate) fn width(&self, face: u32) -> f64 {
+        let [a, b, c] = self.triangle(face).map(DVec3::from);
+        let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+        self.size(face) / longest.sqrt()
+    }
+
+    /// Whether one face is larger than another, for the purposes of this file. Of faces of equal size, the
+    /// earlier face is larger.
+    pub(crate) fn is_larger(&self, one: u32, other: u32) -> bool {
+        let [a, b] = [one, other].map(|face| self.size(face));
+        a > b || a == b && one < other
+    }
+
+    /// Whether two faces lie in one plane.
+    pub(crate) fn are_coplanar(&self, one: u32, other: u32) -> bool {
+        let [large, small] = if self.is_larger(one, other) { [one, other] } else { [other, one] };
+        PreparedPlane::new(self, PlaneId::face(large)).contains(self, small)
+    }
+}
+
+impl PreparedPlane {
+    /// Whether every corner of a face is within the tolerance of the plane.
+    #[inline]
+    pub(crate) fn contains(&self, faces: &Faces, face: u32) -> bool {
+        // Most planes are far from the first corner.
+        self.distance(faces.corners(face)[0]).abs() <= self.slack()
+            && self.classify(faces, face, None) == Side::Coplanar
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A small card on a large wall, both of `f32`: the wall leaves the card's plane by more than the
+    /// tolerance.
+    #[test]
+    fn the_plane_of_the_larger_face_decides() {
+        let point = |p: [f32; 3]| DVec3::from_array(p.map(f64::from));
+        let card = [
+            [0.164580911, -0.825624287, -0.507814169],
+            [0.152409658, -0.82543993, -0.505666435],
+            [0.157288924, -0.820353746, -0.514021218],
+        ];
+        let wall = [
+            [0.214738548, -0.845463216, -0.488957345],
+            [-0.393824399, -0.836245894, -0.381569356],
+            [-0.149861276, -0.581934273, -0.799308479],
+        ];
+        let (faces, _) = Faces::new([card.map(point), wall.map(point)], Some(2.4e-7)).unwrap();
+        let contains = |plane: u32, face: u32| {
+            PreparedPlane::new(&faces, PlaneId::face(plane)).contains(&faces, face)
+        };
+        assert!(contains(1, 0) && !contains(0, 1) && faces.is_larger(1, 0));
+        assert!(faces.are_coplanar(0, 1) && faces.are_coplanar(1, 0));
+    }
+}
