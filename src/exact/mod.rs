@@ -1,5 +1,6 @@
 //! Exact arithmetic: the scene lattice, faces on it, planes, vertices, predicates, and the split.
 
+pub(crate) mod chain;
 mod classify;
 mod coplanar;
 pub(crate) mod eye;

@@ -48,9 +48,13 @@ pub struct Preparation {
     /// The number of polygons that were not convex, or not planar within the [tolerance](crate::Tolerance),
     /// and became triangles.
     pub triangulated: usize,
-    /// The number of triangulated polygons that are self-intersecting, or whose winding number differs
-    /// between inner points. The count is exact in the polygon's projection along the largest component of
-    /// the polygon's area vector. The triangles of such a polygon depend on its edges:
+    /// The number of triangulated planar polygons that are self-intersecting, or whose winding number differs
+    /// between inner points. A polygon counts as planar if no corner is further from a plane through three
+    /// corners than the [tolerance](crate::Tolerance), or than rounding explains: the polygon's
+    /// [`precision`](crate::Polygon::precision), at most 10⁻⁵ of the grid's width and 1/64 of the polygon's
+    /// size. The count is exact in the polygon's projection along the largest component of the polygon's area
+    /// vector. (A polygon that is not planar is never counted: it keeps its edges.) The triangles of a counted
+    /// polygon depend on its edges:
     ///
     /// - If edges meet only at corners, the triangles cover every point with a nonzero winding number.
     /// - If edges cross, each pair of crossing edges is replaced by two edges between the same four ends that

@@ -14,7 +14,7 @@ use super::{InputPolygons, Preparation};
 use crate::Error;
 use crate::exact::faces::{Frame, INNER};
 use crate::exact::{
-    Faces, Flattener, Lattice, Off, Plane, cross, have_area, integers, is_convex, turns_one_way,
+    Faces, Flattener, Lattice, Off, cross, have_area, integers, is_convex, turns_one_way,
 };
 use crate::memory::{push, reserve};
 use crate::progress::{PIECES_AT_ONCE, Watch};
@@ -89,7 +89,7 @@ impl FaceBuilder<'_> {
             }
         }
         let before = self.faces.len();
-        let crosses_itself = self.triangulate(polygon, convex, &flattener.plane)?;
+        let crosses_itself = self.triangulate(polygon, convex, &flattener, precision)?;
         let report = &mut self.report;
         if self.faces.len() == before {
             report.dropped += 1;
@@ -140,12 +140,23 @@ impl FaceBuilder<'_> {
 
     /// Adds triangles in place of a polygon, if any triangle has area. Returns whether the polygon crosses
     /// itself.
-    fn triangulate(&mut self, polygon: usize, convex: bool, plane: &Plane) -> Result<bool, Error> {
+    fn triangulate(
+        &mut self,
+        polygon: usize,
+        convex: bool,
+        flattener: &Flattener,
+        precision: f64,
+    ) -> Result<bool, Error> {
         let corners: Vec<_> = self.corners.kept.iter().map(|&(point, _)| point).collect();
         let found = if convex {
             triangulate::convex(&corners)
         } else {
-            triangulate::any(&corners, plane, self.watch)?
+            let from_first = |&corner| DVec3::from(corner).distance(corners[0].into());
+            let planar =
+                self.params.planar(precision, corners.iter().map(from_first).fold(0.0, f64::max));
+            let is_planar = corners.iter().all(|corner| flattener.off(corner).distance <= planar);
+            let triangulate = if is_planar { triangulate::planar } else { triangulate::bent };
+            triangulate(&corners, &flattener.plane, self.watch)?
         };
         self.corners.find_runs();
         for some in found.triangles.chunks(PIECES_AT_ONCE) {

@@ -135,6 +135,18 @@ impl SnapParams {
         Self { lattice, tolerance, bend: tolerance }
     }
 
+    /// The largest distance from the plane of other corners that a corner has in a planar polygon: the
+    /// tolerance, or the rounding of the polygon's coordinates. `size` is the size of the polygon, in lattice
+    /// units.
+    pub(super) fn planar(&self, precision: f64, size: f64) -> f64 {
+        /// Rounding does not exceed this share of the polygon's size. Too large: bodies of small bent
+        /// polygons in coarsely written files are not closed. Too small: polygons that are meant to cross
+        /// themselves are not counted as such if their coordinates are coarse.
+        const ROUNDED_SHARE: f64 = 1.0 / 64.0;
+        let rounding = self.lattice.length_to_lattice(precision).min(ROUNDED_SHARE * size);
+        self.bend.max(rounding.min(LARGEST_ROUNDING * 2.0 * LATTICE_LIMIT))
+    }
+
     /// Whether rounding can be the reason that a corner is off the plane of the other corners, by `off`
     /// lattice units. The result depends on neither the other polygons nor the extent, so the result is the
     /// same in every part of a scene.

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::walk::next_block;
 use crate::error::{Error, Kind};
 use crate::exact::eye::ExactRay;
-use crate::exact::{Faces, LATTICE_LIMIT, Plane, PlaneId, cross, gcd};
+use crate::exact::{Faces, LATTICE_LIMIT, Plane, PlaneId, chain, integers};
 use crate::tree::{BspTree, Flat};
 use crate::viewpoint::Ray;
 
@@ -72,8 +72,8 @@ impl BspTree {
 
     /// Returns the open edges of bodies, in the order of polygons: the index of the polygon, and the number
     /// of the corner where the edge begins. An edge is *open* if, along some part of the edge, more edges of
-    /// polygons run in the direction of the open edge than in the opposite direction. In a closed body, no
-    /// edge is open. The first call takes O(n log n) time and stores the result.
+    /// polygons run in the direction of the open edge than in the opposite direction. So of equal edges, all
+    /// are open or none. In a closed body, no edge is open. The first call takes O(n log n) time and stores the result.
     pub fn open_edges(&self) -> impl ExactSizeIterator<Item = (usize, usize)> {
         self.open_edges_of_faces().iter().map(|&[face, k]| {
             (self.faces.polygon(face), self.faces.corner_number(face, k) as usize)
@@ -151,75 +151,14 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
     if is_below { winding } else { 0 }
 }
 
-/// An edge between lattice points: the start, the end, and the pair of the face and the edge's number.
-type Edge = ([i64; 3], [i64; 3], [u32; 2]);
-
-/// The open edges of faces, each as a face and a number: edges along which no other edges run back.
+/// The open edges of faces, each as a face and a number.
 fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
-    let mut edges: Vec<Edge> = Vec::with_capacity(faces.corner_count());
+    let mut edges = Vec::with_capacity(faces.corner_count());
     for face in 0..faces.len() as u32 {
         let range = faces.corner_range(face);
         let corner =
-            |k: usize| faces.given_corner((range.start + k % range.len()) as u32).map(|c| c as i64);
+            |k: usize| integers(faces.given_corner((range.start + k % range.len()) as u32));
         edges.extend((0..range.len()).map(|k| (corner(k), corner(k + 1), [face, k as u32])));
     }
-    // Nearly all edges have an equal edge in the opposite direction.
-    let ends = |&(a, b, _): &Edge| (a.min(b), a.max(b));
-    edges.sort_unstable_by_key(|edge| (ends(edge), edge.0 < edge.1, edge.2));
-    let mut left = Vec::new();
-    for equal in edges.chunk_by(|one, other| ends(one) == ends(other)) {
-        let (falling, rising) = equal.split_at(equal.partition_point(|edge| edge.0 >= edge.1));
-        let more = if falling.len() > rising.len() { falling } else { rising };
-        let surplus = falling.len().abs_diff(rising.len());
-        if equal[0].0 != equal[0].1 {
-            left.extend_from_slice(&more[more.len() - surplus..]);
-        }
-    }
-    // The other edges may be closed by several collinear edges, for example if a corner is on a neighbour's
-    // edge.
-    left.sort_by_cached_key(|&(a, b, _)| line(a, b));
-    let mut open = Vec::new();
-    for edges in left.chunk_by(|one, other| line(one.0, one.1) == line(other.0, other.1)) {
-        open.extend(open_along(edges));
-    }
-    open.sort_unstable();
-    open
-}
-
-/// The line through two points: the direction, and the moment of the line's points about the origin. The
-/// direction's coordinates have no common divisor, and the first coordinate that is not 0 is positive.
-fn line(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], [i128; 3]) {
-    let way: [i64; 3] = std::array::from_fn(|i| b[i] - a[i]);
-    let divisor = way.iter().fold(0, |divisor, c| gcd(divisor, c.unsigned_abs())) as i64;
-    let sign = way.iter().find(|&&c| c != 0).map_or(1, |c| c.signum());
-    let way = way.map(|c| c / divisor.max(1) * sign);
-    // Lattice coordinates are exact in `f64`.
-    (way, cross([0.0; 3], a.map(|c| c as f64), way.map(|c| c as f64)))
-}
-
-/// The open edges among collinear edges: an edge is open if more edges traverse some stretch of the edge
-/// forwards than backwards.
-fn open_along(edges: &[Edge]) -> Vec<[u32; 2]> {
-    // Points of a line have the same order as their coordinates, compared one after the other.
-    let mut ends: Vec<([i64; 3], i32)> = Vec::with_capacity(2 * edges.len());
-    for &(a, b, _) in edges {
-        ends.extend([(a, 1), (b, -1)]);
-    }
-    ends.sort_unstable();
-    // Before each end, the numbers of earlier stretches with a surplus of upward and of downward edges.
-    let (mut surplus, mut counts) = (0, vec![[0, 0]]);
-    for (i, &(end, step)) in ends.iter().enumerate() {
-        surplus += step;
-        let is_stretch = ends.get(i + 1).is_some_and(|next| next.0 != end);
-        let [mut up, mut down] = counts[i];
-        up += usize::from(is_stretch && surplus > 0);
-        down += usize::from(is_stretch && surplus < 0);
-        counts.push([up, down]);
-    }
-    let place = |point: [i64; 3]| ends.partition_point(|end| end.0 < point);
-    let is_open = |&&(a, b, _): &&Edge| {
-        let way = usize::from(a > b);
-        counts[place(a.max(b))][way] > counts[place(a.min(b))][way]
-    };
-    edges.iter().filter(is_open).map(|edge| edge.2).collect()
+    chain::open_edges(edges)
 }

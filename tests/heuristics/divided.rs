@@ -12,6 +12,8 @@ use testkit::rational::Plane;
 pub(super) struct Piece {
     pub(super) face: u32,
     pub(super) outline: Vec<Vertex>,
+    /// The number of planes that cut the piece.
+    pub(super) cuts: usize,
 }
 
 impl Piece {
@@ -109,6 +111,8 @@ pub(super) fn work(pieces: usize) -> f64 {
 pub(super) struct Divided<'t> {
     pub(super) faces: &'t Faces,
     pub(super) exact: &'t [Face],
+    /// The number of nodes above.
+    pub(super) depth: usize,
     pub(super) plane: PlaneId,
     pub(super) counts: Counts,
     pub(super) set: Vec<Piece>,
@@ -214,7 +218,7 @@ pub(super) fn nodes(tree: &BspTree, mut visit: impl FnMut(&Divided<'_>)) {
     let exact: Vec<Face> = (0..faces.len() as u32).map(|face| Face::new(faces, face)).collect();
     let named: HashMap<_, Node<'_>> =
         tree.nodes().map(|node| ((node.depth(), node.fragments()), node)).collect();
-    let whole = |face: u32| Piece { face, outline: exact[face as usize].outline() };
+    let whole = |face: u32| Piece { face, outline: exact[face as usize].outline(), cuts: 0 };
     let all = (0..faces.len() as u32).map(whole).collect();
     let mut pending: Vec<(_, Vec<Piece>)> = vec![((1, 0..tree.len() as u32), all)];
     let mut seen = 0;
@@ -229,7 +233,8 @@ pub(super) fn nodes(tree: &BspTree, mut visit: impl FnMut(&Divided<'_>)) {
         let found = sides.each_ref().map(Vec::len);
         assert_eq!(found[0], node.on().len(), "on {:?}", node.plane());
         let counts = Counts::of(&plane, &set);
-        visit(&Divided { faces, exact: &exact, plane: node.plane(), counts, set });
+        let depth = node.depth() - 1;
+        visit(&Divided { faces, exact: &exact, depth, plane: node.plane(), counts, set });
         let [_, front, back] = sides;
         for (range, set) in [(node.in_front(), front), (node.behind(), back)] {
             assert_eq!(range.is_empty(), set.is_empty());
@@ -257,7 +262,7 @@ pub(super) fn divided(set: &[Piece], id: PlaneId, plane: &Plane) -> [Vec<Piece>;
                 for (side, behind) in [(1, false), (2, true)] {
                     let outline: Vec<Vertex> = clip(&piece.outline, &values, id, behind);
                     assert!(outline.iter().any(|v| v.line == EdgeLine::cut(id, behind)));
-                    sides[side].push(Piece { face: piece.face, outline });
+                    sides[side].push(Piece { face: piece.face, outline, cuts: piece.cuts + 1 });
                 }
             }
         }

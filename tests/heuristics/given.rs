@@ -1,5 +1,6 @@
 //! Planes that a function of the caller chooses: good planes, bad planes, and panics.
 
+use super::divided::{Divided, Piece, nodes};
 use super::{build, scene};
 use binspace::choose::{PieceSet, Side, SplitPlane};
 use binspace::{BuildOptions, ErrorKind};
@@ -8,6 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, Mutex};
 use testkit::judge::{self, judge};
 use testkit::prelude::*;
+use testkit::shapes;
 use testkit::snapshot::Snapshot;
 
 fn axis(axis: usize, coordinate: f64) -> Option<SplitPlane> {
@@ -282,6 +284,212 @@ fn a_set_shows_its_polygons_and_the_sides_on_which_they_lie() {
         }
     }
     enough!(found.iter().all(|&count| count > 100); "{found:?}");
+}
+
+/// What a set says of one of its pieces.
+struct Seen {
+    polygon: usize,
+    cuts: usize,
+    bounds: [DVec3; 2],
+    vertices: Vec<DVec3>,
+    normal: DVec3,
+    /// The sides of all pieces of the set on the plane of this piece.
+    sides: Vec<Side>,
+}
+
+/// All pieces of a set, and their sides on the planes across the axes at some coordinate.
+struct SeenSet {
+    depth: usize,
+    coordinate: f64,
+    pieces: Vec<Seen>,
+    sides: [Vec<Side>; 3],
+}
+
+impl SeenSet {
+    /// Calls every method of a set.
+    fn new(set: &PieceSet<'_>, coordinate: f64) -> Self {
+        let sides = |plane| set.sides(plane).expect("a plane").collect();
+        let piece = |piece: usize| {
+            let vertices: Vec<DVec3> = set.vertices(piece).collect();
+            let mut reversed: Vec<DVec3> = set.vertices(piece).rev().collect();
+            reversed.reverse();
+            assert_eq!(vertices, reversed);
+            assert_eq!(vertices.len(), set.vertices(piece).len());
+            let (polygon, cuts) = (set.polygon(piece), set.cuts(piece));
+            let (bounds, normal) = (set.bounds(piece), set.normal(piece));
+            Seen {
+                polygon,
+                cuts,
+                bounds,
+                vertices,
+                normal,
+                sides: sides(SplitPlane::OfPiece(piece)),
+            }
+        };
+        Self {
+            depth: set.depth(),
+            coordinate,
+            pieces: (0..set.piece_count()).map(piece).collect(),
+            sides: [0, 1, 2].map(|axis| sides(SplitPlane::Axis { axis, coordinate })),
+        }
+    }
+
+    /// For each piece, the piece of a divided set with the same vertices; `None` if the sets differ.
+    fn same_as<'d>(&self, node: &'d Divided<'_>) -> Option<Vec<&'d Piece>> {
+        let mut left: Vec<&Piece> = node.set.iter().collect();
+        let is_same = self.depth == node.depth && self.pieces.len() == left.len();
+        let found = self.pieces.iter().take_while(|_| is_same).map_while(|seen| {
+            let is_seen = |piece: &&Piece| {
+                let polygon = node.faces.polygon(piece.face);
+                polygon == seen.polygon && starts(&seen.vertices, &world(node, piece)).is_some()
+            };
+            Some(left.swap_remove(left.iter().position(is_seen)?))
+        });
+        let found: Vec<_> = found.collect();
+        (is_same && found.len() == self.pieces.len()).then_some(found)
+    }
+}
+
+/// The vertices of a piece in the unit of the polygons.
+fn world(node: &Divided<'_>, piece: &Piece) -> Vec<DVec3> {
+    let lattice = node.faces.lattice();
+    let rounded = |c: &Rational| c.to_f64().value();
+    piece.outline.iter().map(|v| lattice.to_world(v.point.each_ref().map(rounded))).collect()
+}
+
+/// The vertex of an outline that is the first vertex of another outline, with the same vertices up to
+/// rounding, in the same direction.
+fn starts(outline: &[DVec3], of: &[DVec3]) -> Option<usize> {
+    let n = of.len();
+    let is_start = |&k: &usize| (0..n).all(|i| outline[(k + i) % n].abs_diff_eq(of[i], 1e-12));
+    (outline.len() == n).then(|| (0..n).find(is_start))?
+}
+
+/// Planes of pieces and planes across an axis, by a hash of the set.
+fn any_plane(set: &PieceSet<'_>) -> Option<SplitPlane> {
+    let low = set.bounds(0)[0];
+    let mut dice = Dice(low.x.to_bits() ^ low.y.to_bits() << 9 ^ set.piece_count() as u64);
+    dice.roll();
+    let piece = dice.below(set.piece_count());
+    let [low, high] = set.bounds(piece);
+    match dice.below(4) {
+        across @ 0..3 => axis(across, (low + high)[across] / 2.0),
+        _ => Some(SplitPlane::OfPiece(piece)),
+    }
+}
+
+/// Reading the vertices of a cut piece used to panic. All sets that a function sees, at every depth, are
+/// compared with the sets cut again in rationals.
+#[test]
+fn a_set_of_cut_pieces_shows_them_at_every_depth() {
+    let [mut sets, mut cut, mut deep] = [0; 3];
+    let mut sides = [0; 4];
+    for seed in 0..24 {
+        let scene = scene(&mut Dice(seed), 6 + seed as usize);
+        let seen = Arc::new(Mutex::new(vec![]));
+        let list = seen.clone();
+        let options = BuildOptions::DEFAULT.with_tolerance(0.0).with_chooser(move |set| {
+            let coordinate = [-1.4, 0.3, 0.8][set.depth() % 3];
+            list.lock().unwrap().push(SeenSet::new(set, coordinate));
+            any_plane(set)
+        });
+        let tree = options.build(&scene).expect("a tree");
+        let seen = seen.lock().unwrap();
+        nodes(&tree, |node| {
+            if node.set.len() < 2 {
+                return;
+            }
+            let same = seen.iter().find_map(|set| Some((set, set.same_as(node)?)));
+            let (set, pieces) = same.expect("a set that the function saw");
+            sets += 1;
+            deep = deep.max(set.depth);
+            let exact_sides = |plane: &rational::Plane| {
+                pieces.iter().map(|piece| side_of_values(&piece.values(plane))).collect::<Vec<_>>()
+            };
+            for (seen, piece) in set.pieces.iter().zip(&pieces) {
+                assert_eq!(seen.cuts, piece.cuts);
+                cut += usize::from(seen.cuts > 0);
+                let plane = model::plane(node.faces, PlaneId::face(piece.face));
+                let normal = plane.normal.each_ref().map(|c| c.to_f64().value());
+                let normal = DVec3::from(normal).normalize();
+                assert!(seen.normal.abs_diff_eq(normal, 1e-14));
+                let corners = world(node, piece);
+                let ends = [DVec3::min, DVec3::max]
+                    .map(|f| corners.iter().copied().reduce(f).expect("a corner"));
+                for (found, expected) in seen.bounds.iter().zip(ends) {
+                    assert!(found.abs_diff_eq(expected, 1e-12));
+                }
+                let expected = exact_sides(&plane);
+                assert_eq!(seen.sides, expected);
+                expected.iter().for_each(|&side| sides[side as usize] += 1);
+            }
+            for (axis, found) in set.sides.iter().enumerate() {
+                let at = DVec3::splat(set.coordinate).to_array();
+                let at = node.faces.lattice().to_lattice(at.into())[axis];
+                let at = rational::exact(at);
+                let distance = |c: &Rational| (c.clone() - at.clone()).abs();
+                let along = node.exact.iter().flat_map(|face| &face.corners).map(|c| &c[axis]);
+                let nearest = along
+                    .min_by(|a, b| distance(a).cmp(&distance(b)).then(a.cmp(b)))
+                    .expect("a corner");
+                let corner = [nearest.clone(), nearest.clone(), nearest.clone()];
+                assert_eq!(*found, exact_sides(&rational::perpendicular_to_axis(axis, &corner)));
+            }
+        });
+    }
+    enough!(sets > 300, cut > 500, deep > 6; "{sets} sets, {cut} cut pieces, depth {deep}");
+    enough!(sides.iter().all(|&count| count > 100); "{sides:?}");
+}
+
+fn side_of_values(values: &[Rational]) -> Side {
+    side(values.iter().map(|value| rational::sign(value) as i128))
+}
+
+/// Flattened quads, triangles of bent polygons, and `f32`, at the default tolerance.
+#[test]
+fn cut_pieces_lie_in_their_bounds_and_planes_and_turn_left() {
+    let mut dice = Dice(11);
+    let mut boxes = vec![];
+    for _ in 0..12 {
+        let turn = shapes::rotation([0; 3].map(|_| dice.range(-3.0, 3.0)));
+        let mut sides = shapes::cuboid(turn, dice.point(-1.0, 1.0), dice.point(0.3, 1.0));
+        sides[0][2] += dice.point(-0.1, 0.1);
+        boxes.extend(sides);
+    }
+    let as_f32: Vec<Vec<[f32; 3]>> =
+        boxes.iter().map(|side| side.iter().map(|p| p.as_vec3().to_array()).collect()).collect();
+    for is_single in [false, true] {
+        let cut = Arc::new(AtomicUsize::new(0));
+        let counted = cut.clone();
+        let near = if is_single { 1e-5 } else { 1e-8 };
+        let options = BuildOptions::DEFAULT.with_chooser(move |set| {
+            for piece in 0..set.piece_count() {
+                let vertices: Vec<DVec3> = set.vertices(piece).collect();
+                let n = vertices.len();
+                assert!(n >= 3);
+                let [low, high] = [DVec3::min, DVec3::max]
+                    .map(|f| vertices.iter().copied().reduce(f).expect("a vertex"));
+                assert_eq!(set.bounds(piece), [low, high]);
+                let normal = set.normal(piece);
+                for k in 0..n {
+                    let [a, b, c] = [k, k + 1, k + 2].map(|k| vertices[k % n]);
+                    assert!((b - a).dot(normal).abs() < near, "off the plane");
+                    assert!((b - a).cross(c - b).dot(normal) > -near, "a turn to the right");
+                }
+                let area =
+                    vertices.windows(2).map(|e| (e[0] - vertices[0]).cross(e[1] - vertices[0]));
+                assert!(area.sum::<DVec3>().dot(normal) > -near, "clockwise");
+                counted.fetch_add(usize::from(set.cuts(piece) > 0), Relaxed);
+            }
+            any_plane(set)
+        });
+        let tree = match is_single {
+            true => options.build(&as_f32),
+            false => options.build(&boxes),
+        };
+        assert!(tree.expect("a tree").preparation().flattened > 0);
+        enough!(cut.load(Relaxed) > 300; "{} cut pieces", cut.load(Relaxed));
+    }
 }
 
 /// Planes through the middle of the set, regardless of cuts.

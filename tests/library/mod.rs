@@ -22,6 +22,7 @@ mod odd_viewpoints;
 mod other_trees;
 #[cfg(target_os = "linux")]
 mod out_of_memory;
+mod outlines;
 mod panicking_callback;
 mod parts;
 mod peeled;

@@ -91,6 +91,24 @@ fn check_cut_body(all: &[Vec<[f32; 3]>], body: Range<usize>) {
     assert!(open_edges(&loose, loose.triangles(), &own).len() > 20, "nothing to weld");
 }
 
+/// Hexahedra of any eight corners: bent quads that cross each other, and overlap themselves in projections.
+#[test]
+fn hexahedra_of_bent_quads_stay_closed() {
+    let sides =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let (mut dice, mut splits) = (Dice(47), 0);
+    for _ in 0..times(100) {
+        let corners: Vec<DVec3> = (0..8).map(|_| dice.whole_point(40)).collect();
+        let quads = sides.map(|side| side.map(|k: usize| corners[k]));
+        let tree = BspTree::build(quads).unwrap();
+        let mesh = tree.welded_mesh().unwrap();
+        let all: Vec<u32> = (0..tree.len() as u32).collect();
+        assert_eq!(open_edges(&mesh, mesh.triangles(), &all).len(), 0, "{quads:?}");
+        splits += tree.stats().splits;
+    }
+    enough!(splits > 300; "{splits}");
+}
+
 /// A quad beside two quads that share its long edge: a T-junction of the input.
 #[test]
 fn corners_inside_an_edge_are_welded() {

@@ -217,6 +217,100 @@ fn open_edges_are_named() {
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 6);
 }
 
+/// Along an open edge, all edges of its direction are open. An edge that an equal edge closes is open where a
+/// third edge runs along it.
+#[test]
+fn all_edges_of_the_more_frequent_direction_are_open() {
+    let (a, b) = ([0, 0, 0], [4, 0, 0]);
+    let there = |z: i128| vec![a, b, [2, 3, z]];
+    let back = |z: i128| vec![b, a, [2, 3, z]];
+    let named = |polygons: &[Vec<Point>]| -> Vec<usize> {
+        let tree = Bodies(polygons.to_vec()).tree(Heuristic::Auto);
+        let along_x = |&(polygon, corner): &(usize, usize)| {
+            let outline = &polygons[polygon];
+            outline[corner][1] == 0 && outline[(corner + 1) % outline.len()][1] == 0
+        };
+        tree.open_edges().filter(along_x).map(|(polygon, _)| polygon).collect()
+    };
+    assert_eq!(named(&[there(1), back(2)]), []);
+    assert_eq!(named(&[there(1), back(2), there(3)]), [0, 2]);
+    assert_eq!(named(&[there(1), back(2), there(3), back(4), back(5)]), [1, 3, 4]);
+    assert_eq!(named(&[there(1), there(2), back(3), back(4)]), []);
+    // From −4 to 8, along the edge from 0 to 4.
+    let long = vec![[-4, 0, 0], [8, 0, 0], [2, 3, 9]];
+    assert_eq!(named(&[there(1), back(2), long.clone()]), [0, 2]);
+    let half = vec![[2, 0, 0], a, [2, 3, 8]];
+    assert_eq!(named(&[there(1), half.clone()]), [0]);
+    let other_half = vec![b, [2, 0, 0], [2, 3, 8]];
+    assert_eq!(named(&[there(1), half, other_half]), []);
+}
+
+/// A hexahedron of eight corners: a cube whose corners are moved so that its quads are bent.
+fn hexahedron(dice: &mut Dice, is_wild: bool) -> Vec<Vec<[f64; 3]>> {
+    let corners: Vec<[f64; 3]> = (0..8)
+        .map(|k| {
+            [0, 1, 2].map(|axis| match is_wild {
+                true => dice.around_zero(40),
+                false => f64::from(2 * (k >> axis & 1) - 1) * 24.0 + dice.around_zero(7),
+            })
+        })
+        .collect();
+    let sides =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    sides.map(|side| side.map(|k: usize| corners[k]).to_vec()).to_vec()
+}
+
+/// Many of the bent quads overlap themselves in the projection along their main axis. Rays in integers decide
+/// the winding numbers, from the triangles that the library made.
+#[test]
+fn hexahedra_of_bent_quads_are_closed() {
+    let mut dice = Dice(31);
+    let (mut closed, mut crossing, mut inside, mut outside) = ([0; 2], 0, 0, 0);
+    for round in 0..times(2400) {
+        let is_wild = round % 2 == 0;
+        let quads = hexahedron(&mut dice, is_wild);
+        let single: Vec<Vec<[f32; 3]>> =
+            quads.iter().map(|quad| quad.iter().map(|p| p.map(|c| c as f32)).collect()).collect();
+        let tree = match round / 2 % 3 {
+            0 => BuildOptions::DEFAULT.build(&quads),
+            1 => BuildOptions::DEFAULT.build(&single),
+            _ => BuildOptions::DEFAULT.with_tolerance(0.0).build(&quads),
+        }
+        .expect("a tree");
+        if tree.preparation().crossing > 0 {
+            // A quad that is planar and crosses itself.
+            crossing += 1;
+            continue;
+        }
+        assert_eq!(tree.open_edges().count(), 0, "{quads:?}");
+        closed[usize::from(is_wild)] += 1;
+        if round % 16 > 1 {
+            continue;
+        }
+        let faces = tree.faces();
+        let whole = |&corner: &[f64; 3]| -> Point {
+            faces.lattice().to_world(corner).to_array().map(|c| c as i128)
+        };
+        let faces = (0..faces.len() as u32).map(|f| faces.corners(f).iter().map(whole).collect());
+        let body = Bodies(faces.collect());
+        for _ in 0..40 {
+            let point: Point = [0; 3].map(|_| dice.around_zero(40 * PARTS as u32) as i128);
+            let expected = body.winding(point, &mut dice);
+            let found = tree.winding_number(point.map(|c| c as f64 / PARTS as f64));
+            assert_eq!(found, Ok(expected), "{point:?} / {PARTS} in {quads:?}");
+            assert!(is_wild || matches!(expected, None | Some(0 | 1)), "{quads:?}");
+            inside += usize::from(expected.is_some_and(|times| times != 0));
+            outside += usize::from(expected == Some(0));
+        }
+        if !is_wild {
+            assert_eq!(tree.winding_number([0.0; 3]), Ok(Some(1)));
+            assert_eq!(tree.winding_number([0.0, 0.0, 40.0]), Ok(Some(0)));
+        }
+    }
+    enough!(closed.iter().all(|&count| count > 1000), crossing < 20; "{closed:?} {crossing}");
+    enough!(inside > 1000, outside > 1000; "{inside} {outside}");
+}
+
 /// Nearer to a side than boxes are wide.
 #[test]
 fn points_next_to_a_side_are_inside_or_outside() {

@@ -87,8 +87,12 @@ impl<'a> PieceSet<'a> {
         let Set { faces, arena, pieces, .. } = *self.set;
         let (lattice, piece) = (faces.lattice(), &pieces[piece]);
         let (cut, corners) = (piece.cut_vertices(arena), faces.corners(piece.face));
-        (0..cut.map_or(corners.len(), <[_]>::len))
-            .map(move |i| lattice.to_world(cut.map_or(corners[i], |cut| cut[i].position())))
+        // A cut piece may have more vertices than its face has corners.
+        let vertex = move |i: usize| match cut {
+            None => corners[i],
+            Some(cut) => cut[i].position(),
+        };
+        (0..cut.map_or(corners.len(), <[_]>::len)).map(move |i| lattice.to_world(vertex(i)))
     }
 
     /// Returns the unit normal of the piece's plane, which points to the front. This normal equals the

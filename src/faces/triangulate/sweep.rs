@@ -106,6 +106,8 @@ pub(super) struct Sweep<'a> {
     unmerged: Vec<Edge>,
     /// The edges that the current point ends or divides.
     ended: Vec<u32>,
+    /// Whether a point divides an edge, or edges overlap.
+    touches: bool,
     /// Pairs of edges that cross. These edges are no longer on the line. If there are any, `triangles` is
     /// incomplete.
     pub(super) crossings: Vec<[Edge; 2]>,
@@ -145,6 +147,7 @@ impl<'a> Sweep<'a> {
             starting: vec![],
             unmerged: vec![],
             ended: vec![],
+            touches: false,
             crossings: vec![],
             triangles: vec![],
             windings: [0; 2],
@@ -154,9 +157,8 @@ impl<'a> Sweep<'a> {
         sweep
     }
 
-    /// Sweeps over all points. Returns `None` if there are too many parts, or if edges cross and the rule
-    /// does not allow crossings. If the rule allows crossings, two edges that cross are removed from the line
-    /// when the crossing is found.
+    /// Sweeps over all points. Returns `None` if there are too many parts. Two edges that cross are removed
+    /// from the line when the crossing is found; if the rule does not allow crossings, the sweep ends there.
     pub(super) fn run(mut self, watch: &Watch<'_>) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.outline.points.len() as u32 {
@@ -166,17 +168,25 @@ impl<'a> Sweep<'a> {
                 watch.work(std::mem::take(&mut self.steps))?;
             }
             let crosses = self.rule == Rule::Signed && !self.crossings.is_empty();
-            if crosses || self.waiting.len() > most {
+            if crosses {
+                break;
+            }
+            if self.waiting.len() > most {
                 return Ok(None);
             }
         }
-        watch.work(self.steps)?;
+        watch.work(std::mem::take(&mut self.steps))?;
         Ok(Some(self))
     }
 
     /// Whether the winding number is 1 everywhere inside, or −1 everywhere.
     pub(super) fn winds_once(&self) -> bool {
         self.windings[1] - self.windings[0] <= 1
+    }
+
+    /// Whether an outline of this many corners does not touch itself. Its edges must not cross.
+    pub(super) fn is_simple(&self, corners: usize) -> bool {
+        !self.touches && self.outline.points.len() == corners
     }
 
     /// The edges found, without the edges that cross.
@@ -261,6 +271,7 @@ impl<'a> Sweep<'a> {
             if ending.ends[1] != point {
                 let [before, behind] = ending.cut(point);
                 *ending = before;
+                self.touches = true;
                 self.starting.push(behind);
             }
         }
@@ -279,6 +290,7 @@ impl<'a> Sweep<'a> {
         });
         self.starting.clear();
         for alike in all.chunk_by(|a, b| turn(at, end(a), end(b)).is_eq()) {
+            self.touches |= alike.len() > 1;
             let merged = self.merge_alike(point, alike);
             self.starting.extend(merged);
         }

@@ -1,0 +1,227 @@
+//! The faces of a polygon keep its outline: their directed edges sum to the outline, and their vector areas to
+//! the vector area of the polygon. Compared in integers, at the corners on the grid.
+
+use binspace::{Preparation, Tolerance};
+use std::collections::BTreeMap;
+use testkit::checks::{area, face_area};
+use testkit::prelude::*;
+
+type Point = [i128; 3];
+
+fn minus(a: Point, b: Point) -> Point {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        a[j] * b[k] - a[k] * b[j]
+    })
+}
+
+/// The sum of directed edges. All edges are divided at the points on them.
+fn chain(points: &[Point], edges: impl Iterator<Item = [Point; 2]>) -> BTreeMap<[Point; 2], i32> {
+    let mut chain = BTreeMap::new();
+    for [a, b] in edges {
+        let [low, high] = if a < b { [a, b] } else { [b, a] };
+        let on_edge = |p: &&Point| {
+            (low..=high).contains(p) && cross(minus(high, low), minus(**p, low)) == [0; 3]
+        };
+        let mut stops: Vec<Point> = points.iter().filter(on_edge).copied().collect();
+        stops.sort_unstable();
+        stops.dedup();
+        for pair in stops.windows(2) {
+            *chain.entry([pair[0], pair[1]]).or_insert(0) += if a < b { 1 } else { -1 };
+        }
+    }
+    chain.retain(|_, times| *times != 0);
+    chain
+}
+
+fn around(corners: &[Point]) -> impl Iterator<Item = [Point; 2]> {
+    (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]])
+}
+
+/// Asserts that a polygon's faces keep its outline.
+fn assert_kept(faces: &Faces, polygon: &[DVec3]) {
+    let whole = |p: [f64; 3]| p.map(|c| c as i128);
+    let corners: Vec<Point> = polygon.iter().map(|&p| whole(faces.lattice().snap(p))).collect();
+    let all: Vec<Vec<Point>> = (0..faces.len() as u32)
+        .map(|face| faces.corners(face).iter().map(|&p| whole(p)).collect())
+        .collect();
+    let expected = chain(&corners, around(&corners));
+    let found = chain(&corners, all.iter().flat_map(|face| around(face)));
+    assert_eq!(found, expected, "{polygon:?}\n{all:?}");
+    let zero = rational::point(DVec3::ZERO);
+    let sum = (0..faces.len() as u32)
+        .fold(zero, |sum, face| rational::sum(&sum, &face_area(faces, face)));
+    assert_eq!(sum, area(faces, polygon), "{polygon:?}");
+}
+
+/// Prepares a polygon of numbers that are exact in `f32`.
+fn prepare(polygon: &[DVec3], is_single: bool, tolerance: Tolerance) -> (Faces, Preparation) {
+    let single: Vec<[f32; 3]> = polygon.iter().map(|p| p.as_vec3().to_array()).collect();
+    match is_single {
+        true => Faces::new([single], tolerance),
+        false => Faces::new([polygon.to_vec()], tolerance),
+    }
+    .expect("finite")
+}
+
+const WAYS: [(bool, Tolerance); 4] = [
+    (false, Tolerance::Default),
+    (true, Tolerance::Default),
+    (false, Tolerance::Length(0.0)),
+    (true, Tolerance::Length(0.0)),
+];
+
+/// Whether all corners are in one plane, exactly. The coordinates are whole numbers.
+fn is_planar(polygon: &[DVec3]) -> bool {
+    let corners: Vec<Point> = polygon.iter().map(|p| p.to_array().map(|c| c as i128)).collect();
+    let [first, rest @ ..] = &corners[..] else { return true };
+    let arms: Vec<Point> = rest.iter().map(|&p| minus(p, *first)).collect();
+    let normals = arms.iter().flat_map(|&a| arms.iter().map(move |&b| cross(a, b)));
+    let Some(normal) = normals.into_iter().find(|&normal| normal != [0; 3]) else { return true };
+    arms.iter().all(|arm| (0..3).map(|i| arm[i] * normal[i]).sum::<i128>() == 0)
+}
+
+fn of<const N: usize>(corners: [[i32; 3]; N]) -> Corners {
+    corners.map(|corner| DVec3::from(corner.map(f64::from))).to_vec()
+}
+
+/// In the projection along the main axis, these outlines cross themselves, or corners coincide. They lost
+/// surface or a corner, or edges were replaced.
+#[test]
+fn bent_polygons_that_overlap_in_their_main_projection_keep_surface_and_edges() {
+    let lost_surface = of([[1, -4, 3], [2, -4, -1], [-1, -4, 0], [2, 3, 3]]);
+    let lost_corner = of([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 5]]);
+    let replaced_edges = of([[-38, -14, 26], [25, -20, 13], [39, 10, 28], [-33, -20, 18]]);
+    // Two steps: the riser between them has no area seen from above.
+    let stairs = of([
+        [0, 0, 0],
+        [1, 0, 0],
+        [1, 0, 1],
+        [2, 0, 1],
+        [2, 1, 1],
+        [1, 1, 1],
+        [1, 1, 0],
+        [0, 1, 0],
+    ]);
+    for polygon in [lost_surface, lost_corner, replaced_edges, stairs] {
+        for start in 0..polygon.len() {
+            let mut polygon = polygon.clone();
+            polygon.rotate_left(start);
+            for (is_single, tolerance) in WAYS {
+                let (faces, report) = prepare(&polygon, is_single, tolerance);
+                assert_eq!((report.triangulated, report.crossing, report.dropped), (1, 0, 0));
+                assert_eq!(faces.len(), polygon.len() - 2);
+                assert_kept(&faces, &polygon);
+            }
+        }
+    }
+}
+
+/// The kinds of outlines that follow are bent in every way: on small grids, where corners coincide in
+/// projections and touch edges; far apart; helices that wind several times; and rough terrain with a loop.
+fn outline(kind: usize, dice: &mut Dice) -> Corners {
+    let n = 4 + dice.below(6);
+    match kind {
+        0 | 1 => {
+            let wide = 1 + dice.below(3) as u32;
+            (0..n).map(|_| dice.whole_point(wide)).collect()
+        }
+        2 => (0..4).map(|_| dice.whole_point(40)).collect(),
+        3 => (0..n).map(|_| dice.whole_point(1000)).collect(),
+        4 => {
+            let ramp = |k: usize| {
+                let [x, y] =
+                    [[9, 0], [6, 6], [0, 9], [-6, 6], [-9, 0], [-6, -6], [0, -9], [6, -6]][k % 8];
+                dvec3(x.into(), y.into(), k as f64)
+            };
+            let turns = 9 + dice.below(20);
+            let back = |p: DVec3| dvec3(p.x * 2.0, p.y * 2.0, p.z);
+            (0..turns).map(ramp).chain((0..turns).rev().map(|k| back(ramp(k)))).collect()
+        }
+        _ => {
+            let count = 20 + dice.below(60);
+            let mut all: Vec<DVec3> = (0..count)
+                .map(|k| {
+                    let turn = k as f64 / count as f64 * std::f64::consts::TAU;
+                    let radius = dice.range(600.0, 1000.0);
+                    let height = dice.around_zero(30);
+                    dvec3(turn.cos() * radius, turn.sin() * radius, height).round()
+                })
+                .collect();
+            let at = dice.below(count - 4);
+            all.swap(at, at + 1 + dice.below(3));
+            all
+        }
+    }
+}
+
+#[test]
+fn faces_keep_the_outline_of_every_bent_polygon() {
+    let mut dice = Dice(44);
+    let mut counts = [[0; 2]; 6];
+    let mut crossing = 0;
+    for round in 0..times(3000) {
+        let kind = round % 6;
+        let polygon = outline(kind, &mut dice);
+        let is_planar = is_planar(&polygon);
+        let (is_single, tolerance) = WAYS[round / 6 % 4];
+        let (faces, report) = prepare(&polygon, is_single, tolerance);
+        if is_planar && report.crossing > 0 {
+            crossing += 1;
+            continue;
+        }
+        assert_eq!(report.crossing, 0, "{polygon:?}");
+        assert_eq!(report.flattened, 0, "{polygon:?}");
+        assert_kept(&faces, &polygon);
+        counts[kind][usize::from(is_planar)] += 1;
+    }
+    enough!(counts.iter().all(|&[bent, _]| bent > 200); "{counts:?}");
+    enough!(counts[0][1] > 5; "{counts:?}");
+    assert!(crossing < times(3000) / 10, "{crossing}");
+}
+
+/// A loop in a large bent outline changes only its neighbourhood: few triangles face down.
+#[test]
+fn a_loop_in_a_bent_outline_is_cut_off() {
+    let count = 400;
+    let mut dice = Dice(45);
+    for _ in 0..times(20) {
+        let mut all: Corners = (0..count)
+            .map(|k| {
+                let turn = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
+                let radius = 10_000.0 + 1000.0 * dice.share();
+                dvec3(turn.cos() * radius, turn.sin() * radius, dice.range(0.0, 300.0)).round()
+            })
+            .collect();
+        let at = dice.below(count as usize - 3);
+        all.swap(at, at + 2);
+        let (faces, report) = prepare(&all, false, Tolerance::Default);
+        assert_eq!((report.triangulated, report.crossing), (1, 0));
+        assert_kept(&faces, &all);
+        let areas = (0..faces.len() as u32).map(|face| {
+            let [.., z] = face_area(&faces, face);
+            z.to_f64().value()
+        });
+        let (up, down): (Vec<f64>, Vec<f64>) = areas.partition(|&z| z > 0.0);
+        let [up, down]: [f64; 2] = [up, down].map(|areas| areas.iter().sum());
+        assert!(-down < up / 1000.0, "{down} of {up}");
+    }
+}
+
+/// As many corners as take long: the work is bounded, and the outline is kept.
+#[test]
+fn a_large_tangle_comes_to_an_end() {
+    let mut dice = Dice(46);
+    let tangle: Corners = (0..3000).map(|_| dice.whole_point(1 << 20)).collect();
+    let (faces, report) = prepare(&tangle, false, Tolerance::Length(0.0));
+    assert_eq!((report.triangulated, report.crossing), (1, 0));
+    let whole = area(&faces, &tangle);
+    let zero = rational::point(DVec3::ZERO);
+    let sum = (0..faces.len() as u32)
+        .fold(zero, |sum, face| rational::sum(&sum, &face_area(&faces, face)));
+    assert_eq!(sum, whole);
+}
