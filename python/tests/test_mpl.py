@@ -549,7 +549,9 @@ def test_legends_avoid_surfaces_while_the_axes_are_drawn():
             ax.view_init(60, azim)
             figure.canvas.draw()
             places[-1].append(tuple(np.round(legend.get_window_extent().bounds)))
-    assert places[0] == places[1] and len(set(places[0])) > 1
+    assert places[0] == places[1]
+    if VERSION >= (3, 11):
+        assert len(set(places[0])) > 1
 
 
 @pytest.mark.parametrize("draw", [one_surface, one_line, one_scatter])
