@@ -114,6 +114,25 @@ pub(crate) fn run<T: Send>(
     })
 }
 
+/// The number of items after which `for_each` handles signals. Too small: this thread waits often for the
+/// interpreter. Too large: Ctrl-C takes effect late.
+const CHUNK: usize = 256;
+
+/// Calls `work` for each item, without the interpreter. An exception in a signal handler ends the calls.
+pub(crate) fn for_each<T>(
+    py: Python<'_>,
+    mut items: impl Iterator<Item = T> + Send,
+    mut work: impl FnMut(T) + Send,
+) -> PyResult<()> {
+    loop {
+        let count = py.detach(|| items.by_ref().take(CHUNK).map(&mut work).count());
+        if count < CHUNK {
+            return Ok(());
+        }
+        py.check_signals()?;
+    }
+}
+
 /// The thread pool of this process. A forked process gets a new pool, because the threads of its parent do
 /// not exist in the forked process, which would wait for them forever.
 fn pool() -> PyResult<Arc<ThreadPool>> {

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Array1, Array2, array1, array2};
 use crate::input::{Build, Lists, Points, PointsView, viewpoint};
-use crate::task::{Watch, exception, run};
+use crate::task::{Watch, exception, for_each, run};
 
 /// A tree of polygons. `binspace.Tree` prepares its arguments.
 #[pyclass(frozen, subclass, module = "binspace._binspace")]
@@ -162,23 +162,20 @@ impl Tree {
     ) -> PyResult<Hits> {
         let (from, others) = (from.view()?, others.view()?);
         let limit = limit.unwrap_or(usize::MAX);
-        let found = py.detach(|| {
-            let mut found = FoundHits { offsets: vec![0], ..FoundHits::default() };
-            for ray in rays(from, others, are_ends) {
-                for hit in self.tree.hits(ray).take(limit) {
-                    found.polygon.push(hit.polygon() as u32);
-                    found.parameter.push(hit.parameter());
-                    found.points.push(hit.point().to_array());
-                    found.facing.push(match hit.facing() {
-                        Facing::Front => 1,
-                        Facing::Back => -1,
-                        Facing::EdgeOn => 0,
-                    });
-                }
-                found.offsets.push(found.polygon.len() as u64);
+        let mut found = FoundHits { offsets: vec![0], ..FoundHits::default() };
+        for_each(py, rays(from, others, are_ends), |ray| {
+            for hit in self.tree.hits(ray).take(limit) {
+                found.polygon.push(hit.polygon() as u32);
+                found.parameter.push(hit.parameter());
+                found.points.push(hit.point().to_array());
+                found.facing.push(match hit.facing() {
+                    Facing::Front => 1,
+                    Facing::Back => -1,
+                    Facing::EdgeOn => 0,
+                });
             }
-            found
-        });
+            found.offsets.push(found.polygon.len() as u64);
+        })?;
         Ok(Hits {
             offsets: array1(py, found.offsets),
             polygon: array1(py, found.polygon),
@@ -195,8 +192,8 @@ impl Tree {
         to: Points<'_>,
     ) -> PyResult<Array1<bool>> {
         let (from, to) = (from.view()?, to.view()?);
-        let occluded =
-            py.detach(|| rays(from, to, true).map(|ray| self.tree.is_occluded(ray)).collect());
+        let mut occluded = Vec::new();
+        for_each(py, rays(from, to, true), |ray| occluded.push(self.tree.is_occluded(ray)))?;
         Ok(array1(py, occluded))
     }
 }

@@ -136,6 +136,17 @@ def one_scatter(ax):
     ax.scatter(np.cos(t), np.sin(t), t, c=t, s=5 * t + 4, marker="^", edgecolors="k")
 
 
+def three_scatters(ax, count=40):
+    t = np.linspace(0, 9, 3 * count)
+    styles = [
+        {"marker": "o", "s": 20, "color": "C0", "depthshade": False},
+        {"marker": "s", "s": 30 + 9 * np.arange(count) % 40, "c": np.arange(count), "edgecolors": "k"},
+        {"marker": "^", "s": 60, "facecolors": "none", "edgecolors": "r", "linewidths": [1, 2] * (count // 2)},
+    ]
+    for i, style in enumerate(styles):
+        ax.scatter(np.cos(5 * t[i::3]), np.sin(5 * t[i::3]), t[i::3], **style)
+
+
 def some_patches(ax, offsets=((0, 0), (1, 1), (0, 1)), zs=(0, 1, 0), **options):
     shapes = [matplotlib.patches.Circle((0, 0), 20), matplotlib.patches.Rectangle((-30, -9), 60, 18, angle=30)]
     options = {"facecolors": ["C1", "C2", "C3"], "edgecolors": "k", "linewidths": 2} | options
@@ -182,8 +193,12 @@ def a_text(ax):
 
 
 @pytest.mark.parametrize(
-    "draw", [one_surface, one_line, one_scatter, some_patches, one_wireframe, bars, contours, hatches, noise, a_patch, a_text]
-)
+    "draw",
+    [
+        one_surface, one_line, one_scatter, three_scatters, some_patches, one_wireframe, bars, contours, hatches, noise,
+        a_patch, a_text,
+    ],
+)  # fmt: skip
 def test_what_mplot3d_draws_right_is_the_same(draw, way):
     before, ours = picture(draw, "3d"), picture(draw, "exact3d")
     assert (before != 255).any(-1).mean() > 0.1
@@ -240,6 +255,7 @@ def test_files(format, tmp_path):
     figure = plt.figure()
     ax = figure.add_subplot(projection="exact3d")
     compare.SCENES[0](ax)
+    some_patches(ax)
     ax.plot([-2, 2], [-2, 2], [-1, 1], "k")
     figure.savefig(tmp_path / f"a.{format}")
     assert (tmp_path / f"a.{format}").stat().st_size > 10_000
@@ -515,3 +531,56 @@ def test_the_build_of_a_tree_reports_and_is_cancelled():
     ax.view_init(10, 20)
     figure.canvas.draw()
     assert len(calls) == count
+
+
+def test_legends_avoid_surfaces_while_the_axes_are_drawn():
+    x, y = np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 9))
+    places = []
+    for projection in ("3d", "exact3d"):
+        figure = plt.figure(figsize=(4, 4), dpi=80)
+        ax = figure.add_subplot(projection=projection)
+        ax.plot_surface(x, y, x * y, label="surface")
+        ax.plot_wireframe(x, y, x, label="wires")
+        ax.set(xlim=(0, 2), ylim=(0, 2), zlim=(0, 1))
+        ax.set_box_aspect(None, zoom=1.8)
+        legend = ax.legend()
+        places.append([])
+        for azim in (-60, 0, 60, 120, 180, 240):
+            ax.view_init(60, azim)
+            figure.canvas.draw()
+            places[-1].append(tuple(np.round(legend.get_window_extent().bounds)))
+    assert places[0] == places[1]
+    if VERSION >= (3, 11):
+        assert len(set(places[0])) > 1
+
+
+@pytest.mark.parametrize("draw", [one_surface, one_line, one_scatter])
+def test_all_parts_of_a_figure_are_painted(draw, way):
+    pictures = []
+    for projection in ("3d", "exact3d"):
+        figure = plt.figure(figsize=(6, 6), dpi=80)
+        for column in figure.subfigures(1, 2):
+            for part in column.subfigures(2, 1):
+                draw(part.add_subplot(projection=projection))
+        figure.canvas.draw()
+        pictures.append(np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int))
+    for rows in np.split(np.stack(pictures), 2, 1):
+        for before, ours in np.split(rows, 2, 2):
+            assert (before != 255).any(-1).mean() > 0.1
+            assert (np.abs(before - ours).max(-1) > 90).mean() < 0.004
+
+
+def test_markers_of_several_scatters_are_painted_at_once(monkeypatch, way):
+    counts = []
+    draw = matplotlib.collections.Collection.draw
+    for count in (40, 400):
+        figure = plt.figure(figsize=(4, 4), dpi=80)
+        ax = figure.add_subplot(projection="exact3d")
+        ax.set_axis_off()
+        three_scatters(ax, count)
+        calls = []
+        with monkeypatch.context() as patched:
+            patched.setattr(matplotlib.collections.Collection, "draw", lambda *given: calls.append(0) or draw(*given))
+            figure.canvas.draw()
+        counts.append(len(calls))
+    assert counts == [1, 1]

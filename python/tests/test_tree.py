@@ -396,16 +396,23 @@ import numpy as np, binspace
 signal.signal(signal.SIGINT, signal.default_int_handler)
 random = np.random.default_rng(1)
 polygons = random.uniform(-1, 1, (3000, 3, 3))
+few = binspace.Tree(polygons[:500])
+# Arrays of one point, repeated without memory. All these rays would take hours.
+eye, far = (np.broadcast_to(np.array(point), (1 << 31, 3)) for point in ((0.01, 0.02, -2.0), (0.02, 0.01, 2.0)))
 print("begins", flush=True)
 try:
-    binspace.Tree(polygons)
+    CALL
 except KeyboardInterrupt:
     print("ends", flush=True)
 """
 
 
-def test_ctrl_c_ends_a_build():
-    child = subprocess.Popen([sys.executable, "-c", ENDLESS], stdout=subprocess.PIPE, text=True)
+@pytest.mark.parametrize(
+    "call", ["binspace.Tree(polygons)", "few.hits(eye, end=far)", "few.is_occluded(eye, far)"]
+)
+def test_ctrl_c_ends_long_calls(call):
+    command = [sys.executable, "-c", ENDLESS.replace("CALL", call)]
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert child.stdout.readline() == "begins\n"
     time.sleep(0.3)
     child.send_signal(signal.SIGINT)

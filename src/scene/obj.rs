@@ -11,9 +11,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
 use super::{Attributes, Scene};
 use crate::error::{Error, FileFault, Kind, Problem};
+use crate::memory::{collect, push, reserve};
 pub use decimals::Decimals;
 use statements::{Statement, index, read};
 
@@ -82,145 +84,176 @@ impl Scene {
 }
 
 /// Reads a whole file.
-///
-/// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a fourth number,
-/// reorders faces by material, fails on indices of normals that are not read, and names no line in its
-/// errors. So `tobj` receives only checked `v` lines of three numbers and `f` lines of vertex numbers. `tobj`
-/// stores all faces of a file at once, so [`ObjStream`] does not use `tobj`.
 fn load(
     name: &str,
     input: io::Result<impl Read>,
     library: impl FnMut(&Path) -> Option<Vec<u8>>,
 ) -> Result<(Scene, ObjReport), Error> {
-    let (mut cleaned, mut materials, mut lines) = (String::new(), Vec::new(), Vec::new());
-    let mut given = Given::default();
-    let (mut contents, _) = read(name, input, |statement, words| {
-        match statement {
-            Statement::Vertex(_) => {
-                cleaned.push_str("\nv");
-                (&mut *words).take(3).for_each(|word| cleaned.extend([" ", word]));
-                // One number after the coordinates is a weight.
-                given.colors.push(match numbers(words)[..] {
-                    [Some(r), Some(g), Some(b)] => Some([r, g, b].map(|c| c as f32)),
-                    _ => None,
-                });
-            }
-            // The second coordinate may be missing, and a third coordinate is not used.
-            Statement::TextureCoordinates => given.uvs.push(match numbers(words)[..] {
-                [Some(u)] => Some(DVec2::new(u, 0.0)),
-                [Some(u), Some(v), ..] => Some(DVec2::new(u, v)),
-                _ => None,
-            }),
-            Statement::Normal => given.normals.push(match numbers(words)[..] {
-                [Some(x), Some(y), Some(z), ..] => Some(DVec3::new(x, y, z)),
-                _ => None,
-            }),
-            Statement::Face { corners, material, line } => {
-                cleaned.push_str("\nf");
-                for (&corner, word) in corners.iter().zip(words) {
-                    let (vertex, others) = word.split_once('/').unwrap_or((word, ""));
-                    cleaned.extend([" ", vertex]);
-                    given.corner(corner, others);
-                }
-                materials.push(material);
-                lines.push(line);
-            }
-        }
-        ControlFlow::<()>::Continue(())
+    let mut parts = Parts::default();
+    let (mut contents, flow) = read(name, input, |statement, words| {
+        parts.add(&statement, words).map_or_else(ControlFlow::Break, ControlFlow::Continue)
     })?;
-    let options = tobj::LoadOptions::default();
-    let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let (mut models, _) = tobj::load_obj_buf(&mut cleaned.as_bytes(), &options, no_library)
-        .map_err(|error| of_file(name, format!("tobj cannot read it: {error}")))?;
-    let mesh = models.pop().map(|model| model.mesh).unwrap_or_default();
-    let (points, _) = mesh.positions.as_chunks::<3>();
-    let mut corners = mesh.indices.iter().filter_map(|&index| points.get(index as usize));
+    if let ControlFlow::Break(error) = flow {
+        return Err(error);
+    }
     let mut scene = contents.scene(name, library);
-    for &material in &materials {
-        // If all faces are triangles, `tobj` returns no numbers of corners.
-        let sides = mesh.face_arities.get(scene.len()).map_or(3, |&sides| sides as usize);
-        scene.push(corners.by_ref().take(sides).map(|&point| point.into()), material);
-        let polygon = scene.polygon(scene.len() - 1);
-        contents.report.degenerate_faces += usize::from(is_degenerate(polygon));
-    }
-    if corners.next().is_some() || scene.corners.len() != given.corners.len() {
-        return Err(of_file(name, "tobj has not read all corners"));
-    }
-    scene.lines = lines;
-    (scene.attributes, contents.report.skipped_attributes) = given.finish();
+    contents.report.skipped_attributes = parts.finish(&mut scene)?;
+    let polygons = scene.polygons().filter(|polygon| is_degenerate(polygon.points()));
+    contents.report.degenerate_faces = polygons.count();
     Ok((scene, contents.report))
 }
 
 /// Whether a polygon has fewer than three different corners.
 fn is_degenerate(polygon: &[DVec3]) -> bool {
-    let mut others = polygon.iter().filter(|&corner| corner != &polygon[0]);
+    let Some((first, rest)) = polygon.split_first() else { return true };
+    let mut others = rest.iter().filter(|&corner| corner != first);
     others.next().is_none_or(|second| others.all(|corner| corner == second))
 }
 
-/// Attributes of corners that a file contains besides positions.
+/// Stands for a missing `vt` or `vn` line in lists of their numbers.
+const NONE: u32 = u32::MAX;
+
+/// The vertices, faces and attributes of a file.
+///
+/// A corner can name lines that follow, so numbers of lines are stored. Positions and attributes of corners
+/// need many times the memory of these numbers. They are allocated at the end, when their number is known.
 #[derive(Default)]
-struct Given {
-    /// The attribute of each vertex, each `vt` line and each `vn` line; `None` if the attribute is missing or
-    /// malformed.
+struct Parts {
+    vertices: Vec<DVec3>,
+    /// The colours of the vertices up to the last vertex with a colour.
     colors: Vec<Option<[f32; 3]>>,
+    /// The value of each `vt` line and each `vn` line; `None` if the line is malformed.
     uvs: Vec<Option<DVec2>>,
     normals: Vec<Option<DVec3>>,
-    /// For each corner the numbers, counted from 0, of its vertex, its `vt` line and its `vn` line.
-    corners: Vec<[Option<u32>; 3]>,
+    /// The vertex of each corner.
+    corners: Vec<u32>,
+    /// The `vt` lines and the `vn` lines of the corners, up to the last corner with such a line.
+    uv_of: Vec<u32>,
+    normal_of: Vec<u32>,
     /// Malformed references.
     faults: usize,
+    /// For each face the end of its corners, its material and its line.
+    ends: Vec<usize>,
+    material_of: Vec<u32>,
+    lines: Vec<usize>,
 }
 
-impl Given {
-    /// A corner: its vertex, and the numbers of its `vt` and its `vn` line, such as `7/8`.
-    fn corner(&mut self, vertex: usize, others: &str) {
-        let mut others = others.split('/');
-        let mut next = |count: usize| {
-            let word = others.next().filter(|word| !word.is_empty())?;
-            let number = index(word, count).and_then(|index| u32::try_from(index).ok());
-            self.faults += usize::from(number.is_none());
-            number
-        };
-        let (uv, normal) = (next(self.uvs.len()), next(self.normals.len()));
-        // A number that is too large names no vertex, which is a separate error.
-        self.corners.push([u32::try_from(vertex).ok(), uv, normal]);
+impl Parts {
+    /// Adds a statement, given the words after its keyword.
+    fn add(
+        &mut self,
+        statement: &Statement<'_>,
+        words: &mut dyn Iterator<Item = &str>,
+    ) -> Result<(), Error> {
+        match *statement {
+            Statement::Vertex(vertex) => {
+                // One number after the coordinates is a weight.
+                if let [Some(r), Some(g), Some(b)] = numbers(words.skip(3))[..] {
+                    fill(&mut self.colors, self.vertices.len(), None)?;
+                    push(&mut self.colors, Some([r, g, b].map(|c| c as f32)))?;
+                }
+                if self.vertices.len() == u32::MAX as usize {
+                    return Err(Error::out_of_memory());
+                }
+                push(&mut self.vertices, vertex)
+            }
+            // The second coordinate may be missing, and a third coordinate is not used.
+            Statement::TextureCoordinates => {
+                let uv = match numbers(words)[..] {
+                    [Some(u)] => Some(DVec2::new(u, 0.0)),
+                    [Some(u), Some(v), ..] => Some(DVec2::new(u, v)),
+                    _ => None,
+                };
+                push(&mut self.uvs, uv)
+            }
+            Statement::Normal => {
+                let normal = match numbers(words)[..] {
+                    [Some(x), Some(y), Some(z), ..] => Some(DVec3::new(x, y, z)),
+                    _ => None,
+                };
+                push(&mut self.normals, normal)
+            }
+            Statement::Face { corners, material, line } => {
+                for (&corner, word) in corners.iter().zip(words) {
+                    if let Some((_, others)) = word.split_once('/') {
+                        self.refer(others)?;
+                    }
+                    // A number that does not fit names no vertex, which is an error at the end.
+                    push(&mut self.corners, u32::try_from(corner).unwrap_or(u32::MAX))?;
+                }
+                push(&mut self.ends, self.corners.len())?;
+                push(&mut self.material_of, material)?;
+                push(&mut self.lines, line)
+            }
+        }
     }
 
-    /// The attributes of each corner, and the number of lines and references that are malformed or name a
-    /// missing line.
-    fn finish(self) -> (Attributes, usize) {
+    /// Adds the numbers of the next corner's `vt` line and `vn` line, such as `7/8`.
+    fn refer(&mut self, numbers: &str) -> Result<(), Error> {
+        let counts = [self.uvs.len(), self.normals.len()];
+        let lists = [&mut self.uv_of, &mut self.normal_of];
+        for ((word, count), list) in numbers.split('/').zip(counts).zip(lists) {
+            if word.is_empty() {
+                continue;
+            }
+            match index(word, count).and_then(|index| u32::try_from(index).ok()) {
+                None | Some(NONE) => self.faults += 1,
+                Some(number) => {
+                    fill(list, self.corners.len(), NONE)?;
+                    push(list, number)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds all polygons and their attributes to a scene without polygons. Returns the number of lines and
+    /// references that are malformed or name a missing line.
+    fn finish(self, scene: &mut Scene) -> Result<usize, Error> {
         let mut faults = self.faults
             + self.uvs.iter().filter(|uv| uv.is_none()).count()
             + self.normals.iter().filter(|normal| normal.is_none()).count();
-        let numbers = |kind: usize| self.corners.iter().map(move |corner| corner[kind]);
-        let attributes = Attributes {
-            uvs: of_corners(numbers(1), &self.uvs, &mut faults),
-            normals: of_corners(numbers(2), &self.normals, &mut faults),
-            colors: of_corners(numbers(0), &self.colors, &mut faults),
+        let len = self.corners.len();
+        scene.corners = collect(self.corners.iter().map(|&number| self.vertices[number as usize]))?;
+        scene.attributes = Attributes {
+            uvs: of_corners(self.uv_of, len, &self.uvs, &mut faults)?,
+            normals: of_corners(self.normal_of, len, &self.normals, &mut faults)?,
+            // Vertices behind the last colour are no faults.
+            colors: of_corners(self.corners, len, &self.colors, &mut 0)?,
         };
-        (attributes, faults)
+        (scene.ends, scene.material_of, scene.lines) = (self.ends, self.material_of, self.lines);
+        Ok(faults)
     }
 }
 
-/// The values of corners, given their numbers; empty if no corner has a value. Adds the count of numbers
-/// beyond the last value to `faults`.
+/// The values of all `len` corners, given the corners' numbers of values; empty if no corner has a value.
+/// Adds the count of numbers beyond the last value to `faults`.
 fn of_corners<T: Copy>(
-    numbers: impl Iterator<Item = Option<u32>>,
+    mut numbers: Vec<u32>,
+    len: usize,
     values: &[Option<T>],
     faults: &mut usize,
-) -> Vec<Option<T>> {
-    let value = |number: Option<u32>| {
-        let value = values.get(number? as usize).copied();
-        *faults += usize::from(value.is_none());
-        value?
-    };
-    let values: Vec<_> = numbers.map(value).collect();
-    if values.iter().any(Option::is_some) { values } else { Vec::new() }
+) -> Result<Vec<Option<T>>, Error> {
+    let value = |&number: &u32| values.get(number as usize).copied().flatten();
+    *faults += numbers.iter().filter(|&&n| n != NONE && n as usize >= values.len()).count();
+    if numbers.iter().all(|number| value(number).is_none()) {
+        return Ok(Vec::new());
+    }
+    fill(&mut numbers, len, NONE)?;
+    collect(numbers.iter().map(value))
 }
 
-/// Words as finite numbers.
-fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
-    words.map(|word| word.parse().ok().filter(|number: &f64| number.is_finite())).collect()
+/// Lengthens a list to `len` items.
+fn fill<T: Clone>(list: &mut Vec<T>, len: usize, item: T) -> Result<(), Error> {
+    reserve(list, len.saturating_sub(list.len()))?;
+    list.resize(len.max(list.len()), item);
+    Ok(())
+}
+
+/// Up to four words as finite numbers.
+fn numbers<'a>(words: impl Iterator<Item = &'a str>) -> SmallVec<[Option<f64>; 4]> {
+    let number = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
+    words.take(4).map(number).collect()
 }
 
 /// A Wavefront OBJ file that is read polygon by polygon, with only the vertices in memory. Use it for scenes

@@ -28,3 +28,30 @@ fn read_forged(file: &[u8]) {
     assert!(most < 8 * file.len() + (1 << 20), "{most} bytes for {} ", file.len());
     enough!(refused > 1000; "{refused}");
 }
+
+/// The limits in `cli/src/memory.rs`: files of triangles take up to `READING` bytes for each byte, and faces
+/// of many corners more. (A corner of two bytes has three coordinates, and may have a colour.)
+#[test]
+fn obj_faces_of_many_corners_take_memory_in_proportion() {
+    let first = "v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+    let vertices = "v 0.125 0.5 0.75\nv 0.25 0.5 0.75\nv 0.25 0.875 0.625\n";
+    for (before, unit, most) in [
+        ("", &format!("{vertices}f -1 -2 -3\nf -1 -2 -3\n")[..], 6),
+        ("f 1 2 3\n", vertices, 6),
+        ("v 0 0 0\nf", " 1", 16),
+        ("v 0 0 0\nvt 0 0\nvn 0 0 1\nf", " 1/1/1", 16),
+        ("f", " 1", 24),
+        ("f", " 1/1", 24),
+        ("", "f 1\n", 24),
+        ("", "f\n", 24),
+    ] {
+        let first = if before.starts_with('v') { "" } else { first };
+        counted(|| {
+            let file = [first, before, &unit.repeat(1_000_000 / unit.len()), "\n"].concat();
+            let read = binspace::scene::Scene::from_obj("memory", file.as_bytes(), |_| None);
+            // Besides the file itself.
+            let (bytes, len) = (most_bytes() - file.capacity(), file.len());
+            assert!(read.is_ok() && bytes <= most * len, "{unit:?}: {bytes} bytes for {len}");
+        });
+    }
+}

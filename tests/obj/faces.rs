@@ -3,6 +3,7 @@
 use crate::obj::{CORNERS, read, sides, with_corners};
 use binspace::scene::ObjReport;
 use testkit::prelude::*;
+use testkit::targets::obj::polygons_of_tobj;
 
 #[test]
 fn polygons_keep_their_sides_order_and_place() {
@@ -110,4 +111,44 @@ fn long_continuations_and_large_faces_are_read_in_linear_time() {
     }
     let (scene, _) = read(text).unwrap();
     assert_eq!(sides(&scene), [600_000]);
+}
+
+/// Faces of zero to nine corners name vertices before and after them, in all notations of numbers.
+#[test]
+fn faces_are_read_as_by_tobj() {
+    let mut random = Dice(44);
+    let (mut compared, mut ahead) = (0, 0);
+    for _ in 0..400 {
+        let (mut text, mut vertices) = (String::new(), 0);
+        let (first, behind) = (1 + random.below(20), random.below(20));
+        let in_all = 2 * first + behind;
+        let vertex = |text: &mut String, random: &mut Dice| {
+            let numbers = [0; 3].map(|_| random.below(2001) as f64 / 64.0 - 15.0);
+            let colour = ["", " 0.5", " 1 0.5 0", " # last"][random.below(4)];
+            *text += &format!("v {:e} {} {}{colour}\n", numbers[0], numbers[1], numbers[2]);
+        };
+        for round in 0..2 {
+            (0..first).for_each(|_| vertex(&mut text, &mut random));
+            vertices += first;
+            for _ in 0..1 + random.below(9) {
+                text += "f";
+                for _ in 0..random.below(10) {
+                    let number = 1 + random.below(in_all);
+                    ahead += usize::from(number > vertices);
+                    let is_negative = number <= vertices && random.below(2) == 0;
+                    let number = number as i64 - if is_negative { vertices as i64 + 1 } else { 0 };
+                    let others = ["", "/", "/1", "//1", "/1/-1", "/7/x"][random.below(6)];
+                    text += &format!(" {number}{others}");
+                }
+                text += ["\n", " # face\n", "\nl 1 2\n", "\r\n", "\nusemtl a\n"][random.below(5)];
+            }
+            text += ["vt 0 1\nvn 0 0 1\n", ""][round];
+        }
+        (0..behind).for_each(|_| vertex(&mut text, &mut random));
+        let (scene, _) = read(&text).expect(&text);
+        let polygons = polygons_of_tobj(text.as_bytes()).expect("plain text");
+        compared += polygons.len();
+        assert!(scene.polygons().map(|p| p.points().to_vec()).eq(polygons), "{text}");
+    }
+    enough!(compared > 3000, ahead > 3000; "{compared} faces, {ahead} corners ahead");
 }

@@ -4,6 +4,7 @@ use crate::obj::sides;
 use std::path::Path;
 use testkit::prelude::*;
 use testkit::real_scenes;
+use testkit::targets::obj::polygons_of_tobj;
 
 /// The manifest's rows: name, faces, triangles, quads, larger, low, high.
 fn manifest(folder: &Path) -> Vec<(String, [usize; 4], DVec3, DVec3)> {
@@ -99,4 +100,22 @@ fn generated_cornell_box_agrees_with_the_real_one() {
         let same = a.points().iter().all(|p| b.points().iter().any(|q| near(p, q)));
         assert!(same, "{a:?} {b:?}");
     }
+}
+
+#[test]
+#[ignore = "needs the real scenes: BINSPACE_SCENES"]
+fn real_scenes_are_read_as_by_tobj() {
+    let mut compared = 0;
+    for entry in std::fs::read_dir(real_scenes::folder()).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|extension| extension != "obj") {
+            continue;
+        }
+        let (scene, _) = Scene::read_obj(&path).expect("a valid file");
+        let polygons = polygons_of_tobj(&std::fs::read(&path).expect("a file"));
+        let polygons = polygons.expect("a file of plain text");
+        assert!(scene.polygons().map(|p| p.points().to_vec()).eq(polygons), "{}", path.display());
+        compared += scene.len();
+    }
+    enough!(compared > 100_000; "{compared} polygons");
 }

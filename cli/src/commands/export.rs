@@ -74,6 +74,18 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
         let problem = "the file of materials gets this name: name the output .obj";
         return Err(Failure::about(output.display(), problem));
     }
+    // The OBJ file names it in a line, without quotes.
+    let is_plain = library.file_name().and_then(OsStr::to_str).is_some_and(|name| {
+        !name.starts_with(char::is_whitespace) && !name.contains(char::is_control)
+    });
+    if !is_plain {
+        let problem = "the file cannot name its file of materials: name the output without control \
+                       characters, spaces at the start, and bytes that are not UTF-8";
+        return Err(Failure::about(
+            format!("{}", output.display().to_string().escape_debug()),
+            problem,
+        ));
+    }
     if library.metadata().is_ok_and(|data| data.is_file()) {
         let mut begin = String::new();
         let file = File::open(&library).map(|file| file.take(MATERIALS.len() as u64));

@@ -337,8 +337,28 @@ impl<'a> Part<'a> {
         }
         let values = |accessor: Accessor<'_>, is_share| Values::of(&accessor, is_share, buffers);
         let are_shares = positions.normalized();
-        let indices = primitive.indices().map(|indices| values(indices, false)).transpose()?;
-        let colours = primitive.get(&Semantic::Colors(0)).map(|colours| values(colours, true));
+        let indices = primitive.indices().map(|indices| {
+            let is_whole =
+                matches!(indices.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
+            if !is_whole || indices.dimensions() != Dimensions::Scalar || indices.normalized() {
+                let problem = "its indices are not single unsigned integers of 8, 16 or 32 bits";
+                return Err(about_accessor(&indices, problem));
+            }
+            values(indices, false)
+        });
+        let indices = indices.transpose()?;
+        let colours = primitive.get(&Semantic::Colors(0)).map(|colours| {
+            let is_colour = match colours.data_type() {
+                DataType::U8 | DataType::U16 => colours.normalized(),
+                kind => kind == DataType::F32,
+            };
+            let dimensions = colours.dimensions();
+            if !is_colour || !matches!(dimensions, Dimensions::Vec3 | Dimensions::Vec4) {
+                let problem = "its colours are not three or four floats or shares of 8 or 16 bits";
+                return Err(about_accessor(&colours, problem));
+            }
+            values(colours, true)
+        });
         let material = primitive.material();
         let mut colour = material.pbr_metallic_roughness().base_color_factor();
         let is_blended = material.alpha_mode() == AlphaMode::Blend;

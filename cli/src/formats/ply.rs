@@ -211,9 +211,9 @@ impl Contents {
         } else if kind == "face" {
             self.add_face(element.corners.ok_or("its list of corners is missing")?, colour);
         } else if kind == "tristrips" {
-            // A negative number ends a strip.
+            // -1 ends a strip.
             let corners = element.corners.ok_or("its list of corners is missing")?;
-            for strip in corners.split(|&corner| corner < 0.0) {
+            for strip in corners.split(|&corner| corner == -1.0) {
                 for (number, triangle) in strip.windows(3).enumerate() {
                     let &[a, b, c] = triangle else { continue };
                     // Repeated corners join two strips.

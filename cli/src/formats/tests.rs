@@ -414,7 +414,7 @@ fn what_is_wrong_is_named() {
     }
 }
 
-/// Every other triangle of a strip is turned over; a negative number ends the strip, and repeated corners
+/// Every other triangle of a strip is turned over; -1 ends the strip, and repeated corners
 /// continue it.
 #[test]
 fn ply_files_have_strips_of_triangles() {
@@ -431,11 +431,64 @@ fn ply_files_have_strips_of_triangles() {
         assert_eq!(scene.polygon(number), whole.polygon(face));
         assert_eq!(scene.material(number).color, [1.0, 2.0, 3.0].map(|c| c / 255.0));
     }
-    for index in ["9", "1.5"] {
+    for index in ["9", "1.5", "-2", "-0.5"] {
         let file = file.replace("2 1 3 3", &format!("2 1 {index} 3"));
         let message = read(MeshKind::Ply, file.as_bytes()).unwrap_err();
         let problem = format!("index {index} is out of range: 4 vertices");
         assert!(message.contains(&problem), "{message}");
+    }
+}
+
+/// Indices of signed or float type were rounded: -1 became 0, and 2.9 became 2.
+#[test]
+fn gltf_accessors_of_wrong_types_are_refused() {
+    let mut buffer = little([1.0, 2.0, 3.0, 4.0, 5.0, 6.5, 7.0, 8.5, 9.0]);
+    buffer.extend(little([0.0; 12]));
+    let file = |index: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},
+            {{"bufferView":1,"count":3,{index}}},{{"bufferView":1,"componentType":5126,"count":3,"type":"VEC4"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":48}}],
+            "buffers":[{{"uri":"data:;base64,{}","byteLength":84}}]}}"#,
+            STANDARD.encode(&buffer)
+        )
+    };
+    let index = |kind: u32| format!("\"componentType\":{kind},\"type\":\"SCALAR\"");
+    let valid = [5121, 5123, 5125].map(|kind| file(&index(kind)));
+    let problem =
+        "mesh 0, primitive 0 (from 0): accessor 1 (from 0): its indices are not single unsigned";
+    let wrong = [5120, 5122, 5126].map(index).into_iter().chain([
+        "\"componentType\":5121,\"type\":\"VEC2\"".to_owned(),
+        index(5121) + ",\"normalized\":true",
+    ]);
+    let wrong = wrong.map(|index| (file(&index), problem));
+    let coloured = |kind: &str| {
+        let file = file(&index(5121)).replace("\"POSITION\"", "\"COLOR_0\":2,\"POSITION\"");
+        file.replace(
+            "\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"",
+            &format!("\"count\":3,{kind}"),
+        )
+    };
+    let valid = valid.into_iter().chain([
+        coloured("\"componentType\":5126,\"type\":\"VEC4\""),
+        coloured("\"componentType\":5121,\"type\":\"VEC4\",\"normalized\":true"),
+        coloured("\"componentType\":5123,\"type\":\"VEC3\",\"normalized\":true"),
+    ]);
+    let problem = "accessor 2 (from 0): its colours are not three or four";
+    let colours = [
+        "\"componentType\":5120,\"type\":\"VEC4\",\"normalized\":true",
+        "\"componentType\":5121,\"type\":\"VEC4\"",
+        "\"componentType\":5126,\"type\":\"VEC2\"",
+    ];
+    let wrong = wrong.chain(colours.map(|kind| (coloured(kind), problem)));
+    for file in valid {
+        assert_eq!(read(MeshKind::Gltf, file.as_bytes()).map(|scene| scene.len()), Ok(1), "{file}");
+    }
+    for (file, problem) in wrong {
+        let message = read(MeshKind::Gltf, file.as_bytes()).unwrap_err();
+        assert!(message.contains(problem), "{message}");
     }
 }
 

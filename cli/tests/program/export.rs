@@ -193,3 +193,32 @@ fn materials_replace_no_file_of_others() {
         assert!(!std::path::Path::new("/dev/null.mtl").exists());
     }
 }
+
+/// The name of the materials stood raw in the file, so a line break in it made a line of another meaning.
+#[cfg(unix)]
+#[test]
+fn names_that_a_line_cannot_hold_are_refused() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+
+    use crate::run::Run;
+
+    let folder = Folder::new("export_names");
+    let run = |name: &[u8]| {
+        let mut command = folder.command("export cornell");
+        Run::new(&command.arg("-o").arg(OsStr::from_bytes(name)).output().unwrap())
+    };
+    for name in [&b"a\nv 1 2 3.obj"[..], b"a\rb.obj", b"a\tb.obj", b" a.obj", b"a\xff.obj"] {
+        let message = run(name).refused();
+        assert!(message.contains("cannot name its file of materials"), "{message}");
+        assert!(folder.files().is_empty());
+    }
+    // Files of other formats contain no name.
+    run(b"a\nb.ply").good();
+    run(b"a\nb.glb").good();
+    run("b b#é.obj".as_bytes()).good();
+    let text = fs::read_to_string(folder.path("b b#é.obj")).unwrap();
+    assert!(text.starts_with("mtllib b b#é.mtl\nv "), "{text}");
+    let message = folder.command("stats").arg("b b#é.obj").output().unwrap();
+    assert!(!Run::new(&message).err.contains("not found"));
+}

@@ -16,9 +16,11 @@ in which they were added.
 from __future__ import annotations
 
 import functools
+import itertools
 import weakref
 from collections.abc import Sequence
 
+import matplotlib
 import numpy as np
 from matplotlib import artist as martist
 from matplotlib import collections as mcoll
@@ -496,6 +498,7 @@ _KINDS = [
 ]
 if hasattr(art3d, "Collection3D"):
     _KINDS.append((art3d.Collection3D, _of_paths))
+_SCATTERS = art3d.Path3DCollection, art3d.Patch3DCollection
 
 
 def _kind(artist):
@@ -520,7 +523,8 @@ class _Late(Sequence):
             if is_removed:
                 artist.axes = self._axes
             try:
-                artist.do_3d_projection()
+                # While the axes are drawn, the artist's own attribute only makes lists like this one.
+                type(artist).do_3d_projection(artist)
             finally:
                 if is_removed:
                     artist.axes = None
@@ -545,14 +549,23 @@ def _may_be_late(artist):
 
 
 def _project_late(artist):
+    """Replaces `do_3d_projection`. Legends read the paths while the axes are drawn, and others read them later. Returns a depth
+    that is equal for all artists."""
     names = ["_paths"]
     if isinstance(artist, art3d.Poly3DCollection):
         names += ["_facecolors2d", "_edgecolors2d"]
     for name in names:
         setattr(artist, name, _Late(artist, name))
+    return 0.0
 
 
 # The view.
+
+
+def _size(axes):
+    """Returns the size of the whole picture in pixels, also for axes in a part of a figure."""
+    figure = axes.figure.get_figure(root=True) if matplotlib.__version_info__ >= (3, 10) else axes.figure.figure
+    return [int(np.ceil(side)) for side in (figure.bbox.width, figure.bbox.height)]
 
 
 def _projected(matrix, points):
@@ -1058,6 +1071,68 @@ class _LineLooks:
         self.is_extended = self.is_solid & is_butt & (self.edge[:, 3] >= 1)
 
 
+class _MarkerLooks:
+    """The styles of the markers of scatters and patch collections. `row` has the row of each marker in the other arrays. An
+    artist whose markers are alike has one row."""
+
+    def __init__(self, sources, rows, starts):
+        self.row = np.zeros(starts[-1], int)
+        looks, count = [], 0
+        for source, start, end in zip(sources, starts[:-1], starts[1:]):
+            if isinstance(source.artist, _SCATTERS) and end > start:
+                looks.append(_marker_looks(source.artist, rows[start:end]))
+                length = len(looks[-1][0])
+                self.row[start:end] = count if length == 1 else np.arange(count, count + end - start)
+                count += length
+        empty = [], np.empty((0, 3, 3)), np.empty((0, 4)), np.empty((0, 4)), np.empty(0), np.empty(0, bool), []
+        paths, *parts, dashes = zip(empty, *looks)
+        self.paths, self.dashes = (list(itertools.chain.from_iterable(part)) for part in (paths, dashes))
+        self.transforms, self.face, self.edge, self.widths, self.smooth = map(np.concatenate, parts)
+
+
+def _marker_looks(artist, rows):
+    """Returns the styles of the markers in these rows of an artist, or one style if all its markers are alike: paths,
+    transforms, colours of faces, colours of edges, widths, antialiasing, and dashes."""
+    count = len(artist._offsets3d[0])
+    is_sorted = isinstance(artist, art3d.Path3DCollection)
+
+    def unsorted(colors):
+        """Returns colours in the order of the points. mplot3d has sorted the colours by depth."""
+        if len(colors) != count or count < 2 or not is_sorted:
+            return colors
+        result = np.empty_like(colors)
+        result[artist._z_markers_idx] = colors
+        return result
+
+    paths = artist.get_paths()
+    if is_sorted:
+        # As in `PathCollection.set_sizes`.
+        sides = np.sqrt(np.atleast_1d(artist._sizes3d)) * artist._factor * artist.figure.dpi / 72
+        transforms = np.eye(3) * np.stack([sides, sides, np.ones(len(sides))], -1)[:, None]
+    else:
+        transform = artist.get_transform()
+        paths = [transform.transform_path_non_affine(path) for path in paths]
+        transforms = artist.get_transforms()
+        transforms = transform.get_affine().get_matrix() @ (transforms if len(transforms) else np.eye(3)[None])
+    face, edge = unsorted(artist.get_facecolor()), unsorted(artist.get_edgecolor())
+    widths = np.atleast_1d(artist._linewidths3d if is_sorted else artist.get_linewidth())
+    smooth, dashes = np.atleast_1d(artist.get_antialiased()), list(artist._linestyles)
+    values = paths, transforms, face, edge, widths, smooth, dashes
+    if all(len(part) < 2 for part in values):
+        rows = rows[:1]
+    nothing = Path(np.empty((0, 2))), np.eye(3), np.zeros(4), np.zeros(4), 0.0, True, (0, None)
+
+    def of_rows(values, missing):
+        values = values if len(values) else [missing]
+        if isinstance(values, np.ndarray):
+            return values[rows % len(values)]
+        return [values[row % len(values)] for row in rows.tolist()]
+
+    paths, transforms, face, edge, widths, smooth, dashes = map(of_rows, values, nothing)
+    face, edge = (np.reshape(colors, (-1, 4)) for colors in (face, edge))
+    return paths, transforms, face, edge, widths, np.asarray(smooth, bool), dashes
+
+
 class _Composite(martist.Artist):
     """Paints all artists of exact axes in one order."""
 
@@ -1086,6 +1161,8 @@ class _Composite(martist.Artist):
         self.hatches = list(dict.fromkeys(hatch for source in sources for hatch in source.hatches))
         self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)], self.hatches)
         self.line_looks = _LineLooks(sources, self.line_owner, self.line_row)
+        starts = np.cumsum([0] + [len(source.points) for source in sources])
+        self.marker_looks = _MarkerLooks(sources, self.marker_row, starts)
         alpha = self.looks.face[:, 3]
         is_opaque = bool((alpha >= 1).all())
         # Areas that have only a hatch are painted too.
@@ -1104,7 +1181,7 @@ class _Composite(martist.Artist):
             copies = (None if array is None else array.copy() for array in given)
             built = axes._exact_built = _Built(*copies, axes.exact_progress)
         to_display = axes.transData.get_matrix()
-        size = [int(np.ceil(side)) for side in (axes.figure.bbox.width, axes.figure.bbox.height)]
+        size = _size(axes)
         matrix = np.asarray(axes.M, float)
         shown = None
         if not _is_quick(axes, built, renderer):
@@ -1135,9 +1212,11 @@ class _Composite(martist.Artist):
             owners[chosen] = owner[given[numbers[chosen]]]
         groups = {}
         group = np.array([groups.setdefault(_group(source.artist), len(groups)) for source in sources] + [0])
-        # Areas and lines of one group are painted at once, and other items by artist.
+        # Areas and lines of one group are painted at once, also markers of scatters, and other items by artist.
         has_gaps = np.array([_has_gaps(source.artist) for source in sources] + [False])
-        alone = (kinds == 2) | has_gaps[owners]
+        is_scatter = np.array([isinstance(source.artist, _SCATTERS) for source in sources] + [False])
+        is_marker = kinds == 2
+        alone = np.where(is_marker, ~is_scatter[owners], has_gaps[owners])
         # Areas without strokes have no caps and joins, so they may be painted in any style.
         styles = {}
         style = np.array([styles.setdefault(_style(source.artist), len(styles)) for source in sources] + [0])[owners]
@@ -1147,13 +1226,17 @@ class _Composite(martist.Artist):
         style = np.where(alone, 0, style[last])
         hatch = np.array([self.hatches.index(source.hatches[0]) for source in sources] + [0])[owners]
         hatch[kinds == 0] = self.looks.hatch[shown.polygon[numbers[kinds == 0]]]
-        key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners])
-        key += (len(groups) + 3 * len(sources) + 3) * (hatch + len(self.hatches) * style)
+        key = np.where(alone, 2 * len(groups) + 3 * owners + kinds, group[owners] + len(groups) * is_marker)
+        key += (2 * len(groups) + 3 * len(sources) + 3) * (hatch + len(self.hatches) * style)
         starts = np.flatnonzero(np.append(True, key[1:] != key[:-1])) if len(key) else []
         for start, end in zip(starts, np.append(starts[1:], len(key))):
             source = sources[owners[start]]
             chosen = numbers[start:end]
-            if not alone[start]:
+            if not alone[start] and is_marker[start]:
+                batch = self._markers(source.artist, shown.marker[chosen], shown.at[chosen])
+                batch.set_hatch(self.hatches[hatch[start]])
+                batch.draw(renderer)
+            elif not alone[start]:
                 template = sources[owners[start + np.argmin(is_plain[start:end])]].artist
                 batch = self._paths(template, shown, kinds[start:end], chosen, owners[start:end], place)
                 batch.set_hatch(self.hatches[hatch[start]])
@@ -1169,9 +1252,6 @@ class _Composite(martist.Artist):
                 copy.set_linestyle("None")
                 copy.set_markevery(None)
                 copy.draw(renderer)
-            elif isinstance(source.artist, (art3d.Path3DCollection, art3d.Patch3DCollection)):
-                rows = self.marker_row[shown.marker[chosen]]
-                _paint_scatter(renderer, source.artist, rows, shown.at[chosen])
             else:
                 source.artist.draw(renderer)
 
@@ -1195,17 +1275,38 @@ class _Composite(martist.Artist):
         batch = mcoll.Collection()
         batch._paths = paths
         _take_style(batch, template)
+        _take_cap_and_join(batch, template)
         batch.set_facecolor(face)
         batch.set_edgecolor(edge if widths.any() else "none")
         batch._linewidths, batch._antialiaseds = widths, smooth
         batch._linestyles = dashes if is_dashed else [(0, None)]
         # With one URL, matplotlib paints a single path as a marker: at whole pixels, and always antialiased.
         batch._urls = [None, None]
-        cap, join = _cap_and_join(template)
-        if cap:
-            batch.set_capstyle(cap)
-        if join:
-            batch.set_joinstyle(join)
+        return batch
+
+    def _markers(self, template, numbers, at):
+        """Makes a collection of markers of scatters."""
+        looks = self.marker_looks
+        rows = looks.row[numbers]
+        if (rows == rows[0]).all():
+            # Agg rounds the positions of markers if all are alike, as matplotlib does for one scatter. A second row prevents
+            # this rounding where other markers differ.
+            rows = rows[:1] if len(looks.paths) == 1 else rows[[0, 0]]
+        paths, transforms = [looks.paths[row] for row in rows.tolist()], looks.transforms[rows]
+        if all(path is paths[0] for path in paths) and (transforms == transforms[0]).all():
+            # Files define this shape once.
+            paths, transforms = paths[:1], transforms[:1]
+        face, edge = looks.face[rows], looks.edge[rows]
+        batch = mcoll.Collection()
+        batch._paths, batch._transforms = paths, transforms
+        _take_style(batch, template)
+        _take_cap_and_join(batch, template)
+        batch.set_facecolor(face if face[:, 3].any() else "none")
+        batch.set_edgecolor(edge if edge[:, 3].any() else "none")
+        batch._linewidths, batch._antialiaseds = looks.widths[rows], looks.smooth[rows]
+        batch._linestyles = [looks.dashes[row] for row in rows.tolist()]
+        batch.set_offsets(at)
+        batch.set_offset_transform(_IDENTITY)
         return batch
 
     def _areas(self, shown, areas, position):
@@ -1325,6 +1426,14 @@ def _cap_and_join(artist):
     return artist.get_solid_capstyle(), artist.get_solid_joinstyle()
 
 
+def _take_cap_and_join(batch, artist):
+    cap, join = _cap_and_join(artist)
+    if cap:
+        batch.set_capstyle(cap)
+    if join:
+        batch.set_joinstyle(join)
+
+
 def _has_gaps(artist):
     """Returns whether an artist is a dashed line whose gaps have a colour."""
     return isinstance(artist, mlines.Line2D) and artist.is_dashed() and artist.get_gapcolor() is not None
@@ -1346,44 +1455,6 @@ def _take_style(copy, artist, kind=martist.Artist):
     copy.set_visible(True)
     copy.set_gid(artist.get_gid())
     copy.set_url(artist.get_url())
-
-
-def _paint_scatter(renderer, artist, rows, at):
-    count = len(artist._offsets3d[0])
-    is_sorted = isinstance(artist, art3d.Path3DCollection)
-
-    def unsorted(colors):
-        """Returns colours in the order of the points. mplot3d has sorted the colours by depth."""
-        if len(colors) != count or count < 2 or not is_sorted:
-            return colors
-        result = np.empty_like(colors)
-        result[artist._z_markers_idx] = colors
-        return result
-
-    def of_rows(values):
-        if len(values) < 2:
-            return values
-        chosen = [values[row % len(values)] for row in rows]
-        # Agg rounds the positions of markers if all markers are alike. A second row prevents this rounding for markers
-        # that differ.
-        return chosen * 2 if len(chosen) == 1 else chosen
-
-    face, edge = unsorted(artist.get_facecolor()), unsorted(artist.get_edgecolor())
-    paths = artist.get_paths()
-    sizes = of_rows(np.atleast_1d(artist._sizes3d)) if is_sorted else None
-    widths = np.atleast_1d(artist._linewidths3d if is_sorted else artist.get_linewidth())
-    batch = mcoll.PathCollection([paths[row % len(paths)] for row in rows] if len(paths) > 1 else paths, sizes=sizes)
-    _take_style(batch, artist)
-    batch.set_transform(_IDENTITY if is_sorted else artist.get_transform())
-    batch.set_facecolor(np.array(of_rows(face)).reshape(-1, 4))
-    batch.set_edgecolor(np.array(of_rows(edge)).reshape(-1, 4))
-    batch._linewidths = of_rows(widths)
-    batch._linestyles = of_rows(artist._linestyles)
-    batch._antialiaseds = of_rows(np.atleast_1d(artist.get_antialiased()))
-    batch.set_hatch(artist.get_hatch())
-    batch.set_offsets(at)
-    batch.set_offset_transform(_IDENTITY)
-    batch.draw(renderer)
 
 
 def _is_quick(axes, built, renderer):
@@ -1431,13 +1502,12 @@ class _Exact:
         if all(_kind(child) for child in others if child.get_visible()):
             late = [artist for artist in taken if _may_be_late(artist)]
         for artist in late:
-            artist.do_3d_projection = float
+            artist.do_3d_projection = functools.partial(_project_late, artist)
         try:
             super().draw(renderer)
         finally:
             for artist in late:
                 del artist.do_3d_projection
-                _project_late(artist)
             self._exact_composite = None
             for artist, zorder in zorders:
                 artist.zorder = zorder

@@ -4,6 +4,53 @@ use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use std::fmt::Write;
+use std::path::Path;
+
+/// The polygons of a valid file as the crate `tobj` reads them. `None` for text that this function does not
+/// prepare: other encodings, and backslashes except at the end of lines without comments.
+///
+/// `tobj` accepts NaN, reads `l` lines as faces, divides coordinates by a fourth number, reorders faces by
+/// material and checks the numbers of normals. So it receives only `v` lines of three numbers and `f` lines
+/// of vertex numbers.
+pub fn polygons_of_tobj(bytes: &[u8]) -> Option<Vec<Vec<DVec3>>> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    let has_comments = text.contains('#');
+    let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
+    let text = if has_comments { text } else { text.replace("\\\n", " ") };
+    if text.contains('\\') {
+        return None;
+    }
+    let mut prepared = String::new();
+    for line in text.lines() {
+        let mut words = line.split_whitespace().take_while(|word| !word.starts_with('#'));
+        let (keyword, count) = match words.next() {
+            Some("v") => ("v", 3),
+            Some("f") => ("f", usize::MAX),
+            _ => continue,
+        };
+        prepared.push_str(keyword);
+        let numbers = words.take(count).filter_map(|word| word.split('/').next());
+        numbers.for_each(|number| prepared.extend([" ", number]));
+        prepared.push('\n');
+    }
+    let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
+    let options = tobj::LoadOptions::default();
+    let (models, _) = tobj::load_obj_buf(&mut prepared.as_bytes(), &options, no_library)
+        .unwrap_or_else(|error| panic!("{error}: {text}"));
+    let mut polygons = Vec::new();
+    for tobj::Model { mesh, .. } in models {
+        let (points, _) = mesh.positions.as_chunks::<3>();
+        let mut corners = mesh.indices.iter().map(|&number| DVec3::from(points[number as usize]));
+        // If all faces are triangles, `tobj` returns no numbers of corners.
+        let sides = match &mesh.face_arities[..] {
+            [] => vec![3; mesh.indices.len() / 3],
+            sides => sides.to_vec(),
+        };
+        polygons.extend(sides.iter().map(|&n| corners.by_ref().take(n as usize).collect()));
+        assert!(corners.next().is_none());
+    }
+    Some(polygons)
+}
 
 /// The expected result of reading a file that was written here.
 struct Known {
@@ -38,6 +85,10 @@ fn read_any(bytes: &[u8]) {
     assert!(scene.polygons().flatten().all(|corner| corner.is_finite()));
     let colours = scene.materials().iter();
     assert!(colours.flat_map(|m| m.color.into_iter().chain([m.opacity])).all(|c| c.is_finite()));
+    let corners = |scene: &Scene| scene.polygons().map(|p| p.points().to_vec()).collect::<Vec<_>>();
+    if let Some(polygons) = polygons_of_tobj(bytes) {
+        assert_eq!(corners(&scene), polygons);
+    }
     let mut text = String::new();
     let mut next = 0;
     for polygon in scene.polygons() {
@@ -52,7 +103,6 @@ fn read_any(bytes: &[u8]) {
     let again = Scene::from_obj("again", text.as_bytes(), |_| None);
     let (again, _) = again.unwrap_or_else(|error| panic!("{error}: {text}"));
     // Only corners are compared, because vertices that no face names also determine the precision.
-    let corners = |scene: &Scene| scene.polygons().map(|p| p.points().to_vec()).collect::<Vec<_>>();
     assert_eq!(corners(&scene), corners(&again), "{text}");
 }
 
