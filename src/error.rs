@@ -108,7 +108,7 @@ impl Error {
             | Kind::Viewport
             | Kind::Places { .. } => ErrorKind::InvalidInput,
             Kind::Polygons(_) | Kind::CornersInAll(_) | Kind::Indices => ErrorKind::TooLarge,
-            Kind::PolygonsOfBudget(_) | Kind::Fragments(_) | Kind::Depth(_) => {
+            Kind::PolygonsOfBudget(_) | Kind::Fragments(_) | Kind::Budgets { .. } => {
                 ErrorKind::OverBudget
             }
             Kind::OutOfMemory => ErrorKind::OutOfMemory,
@@ -267,7 +267,11 @@ pub(crate) enum Kind {
     /// More polygons than the budget for fragments, found before the build.
     PolygonsOfBudget(usize),
     Fragments(usize),
-    Depth(usize),
+    /// Too many fragments or too many levels of nodes.
+    Budgets {
+        max_fragments: usize,
+        max_depth: usize,
+    },
     OutOfMemory,
     Cancelled,
     // Of options and arguments.
@@ -355,10 +359,11 @@ impl fmt::Display for Error {
                 "the tree would have more than {limit} fragments (`max_fragments`): raise the \
                  budget or choose another heuristic"
             ),
-            Kind::Depth(limit) => write!(
+            Kind::Budgets { max_fragments, max_depth } => write!(
                 f,
-                "the tree would be more than {limit} nodes deep (`max_depth`): raise the budget \
-                 or choose another heuristic"
+                "the tree would have more than {max_fragments} fragments (`max_fragments`), or be \
+                 more than {max_depth} nodes deep (`max_depth`): raise the budgets or choose \
+                 another heuristic"
             ),
             Kind::OutOfMemory => {
                 f.write_str("out of memory: divide the scene, or limit the tree by `max_fragments`")
