@@ -107,8 +107,10 @@ impl Error {
             | Kind::Bounds
             | Kind::Viewport
             | Kind::Places { .. } => ErrorKind::InvalidInput,
-            Kind::Polygons(_) | Kind::CornersInAll(_) | Kind::Indices => ErrorKind::TooLarge,
-            Kind::PolygonsOfBudget(_) | Kind::Fragments(_) | Kind::Depth(_) => {
+            Kind::Polygons(_) | Kind::CornersInAll(_) | Kind::Indices | Kind::Regions(_) => {
+                ErrorKind::TooLarge
+            }
+            Kind::PolygonsOfBudget(_) | Kind::Fragments(_) | Kind::Budgets { .. } => {
                 ErrorKind::OverBudget
             }
             Kind::OutOfMemory => ErrorKind::OutOfMemory,
@@ -141,7 +143,7 @@ pub enum ErrorKind {
     /// A body has an [open edge](crate::BspTree::open_edges), so the body has no inside.
     OpenBody,
     /// The number of polygons or corners, or of indices of a mesh or of arrays, is too large for the
-    /// library's integers.
+    /// library's integers; or a picture has too many regions.
     TooLarge,
     /// A build or a call reached a limit set in [`BuildOptions`](crate::BuildOptions). A larger limit or
     /// another heuristic may succeed.
@@ -264,10 +266,16 @@ pub(crate) enum Kind {
     CornersInAll(usize),
     /// Too many indices of a mesh or of arrays.
     Indices,
+    /// Too many polygons behind others in all regions of a picture. The number is the limit.
+    Regions(usize),
     /// More polygons than the budget for fragments, found before the build.
     PolygonsOfBudget(usize),
     Fragments(usize),
-    Depth(usize),
+    /// Too many fragments or too many levels of nodes.
+    Budgets {
+        max_fragments: usize,
+        max_depth: usize,
+    },
     OutOfMemory,
     Cancelled,
     // Of options and arguments.
@@ -345,6 +353,12 @@ impl fmt::Display for Error {
             Kind::Indices => {
                 f.write_str("the mesh, or an array of fragments, would have more than 2^32 indices: divide the scene")
             }
+            Kind::Regions(limit) => write!(
+                f,
+                "the picture has too many regions, in which more than {limit} polygons are visible \
+                 behind others: draw fewer translucent polygons, or paint whole polygons one over \
+                 another (`VisibilityMap::drawing`)"
+            ),
             Kind::PolygonsOfBudget(limit) => write!(
                 f,
                 "there are more than {limit} polygons, but the tree may have at most {limit} \
@@ -355,10 +369,11 @@ impl fmt::Display for Error {
                 "the tree would have more than {limit} fragments (`max_fragments`): raise the \
                  budget or choose another heuristic"
             ),
-            Kind::Depth(limit) => write!(
+            Kind::Budgets { max_fragments, max_depth } => write!(
                 f,
-                "the tree would be more than {limit} nodes deep (`max_depth`): raise the budget \
-                 or choose another heuristic"
+                "the tree would have more than {max_fragments} fragments (`max_fragments`), or be \
+                 more than {max_depth} nodes deep (`max_depth`): raise the budgets or choose \
+                 another heuristic"
             ),
             Kind::OutOfMemory => {
                 f.write_str("out of memory: divide the scene, or limit the tree by `max_fragments`")

@@ -1,15 +1,17 @@
 //! Pictures of pixels by exact coverage: each visible polygon contributes its colour by its share of the
-//! pixel's area. Where polygons are translucent, each region contributes its blended colour.
+//! pixel's area. Where polygons are translucent, each convex cell of the picture contributes its blended colour.
 //!
-//! Coverage comes from the sides of cells and regions. In the pixels that a side crosses, it adds the area
+//! Coverage comes from the sides of cells. In the pixels that a side crosses, it adds the area
 //! between the side and the right end of the row of pixels. The area counts as positive or negative,
 //! depending on whether the side goes up or down. (The sum along a row is then the cell's coverage, as in
 //! font rasterizers.) Time is proportional to the number of pixels of the cells.
 
 use std::collections::HashMap;
+use std::convert::Infallible;
 use std::ops::Range;
 
-use binspace::drawing::{Region, VisibilityMap};
+use binspace::Error;
+use binspace::drawing::VisibilityMap;
 
 use crate::drawn::Style;
 
@@ -34,44 +36,69 @@ pub(crate) fn picture(
         for cell in map.cells() {
             band.add(cell.corners(), colours[&cell.polygon()]);
         }
+        Ok(())
     };
-    pixels(map.size(), background, add)
+    let Ok(pixels) = pixels::<Infallible>(map.size(), background, add);
+    pixels
 }
 
 /// Like [`picture`], for translucent polygons.
 pub(crate) fn blended(
-    size: [u32; 2],
+    map: &VisibilityMap<'_>,
     background: [u8; 3],
-    regions: &[Region],
     style: &Style<'_>,
-) -> Vec<u8> {
-    let on_background = |region: &Region| -> [f64; 3] {
-        let blended = style.blended(region.polygons());
-        let left = 1.0 - blended[3];
-        std::array::from_fn(|i| 255.0 * blended[i] + left * f64::from(background[i]))
+) -> Result<Vec<u8>, Error> {
+    let mut looks: HashMap<usize, Look> = HashMap::new();
+    for cell in map.cells() {
+        let polygon = cell.polygon();
+        looks.entry(polygon).or_insert_with(|| Look {
+            rgb: style.fill(polygon).map(f64::from),
+            opacity: f64::from(style.opacity(polygon)),
+        });
+    }
+    let nothing = Light { rgb: [0.0; 3], left: 1.0 };
+    let behind = |front: &Light, polygon: usize| {
+        let Look { rgb, opacity } = looks[&polygon];
+        let rgb = std::array::from_fn(|i| front.rgb[i] + front.left * opacity * rgb[i]);
+        Light { rgb, left: front.left * (1.0 - opacity) }
     };
-    let colours: Vec<[f64; 3]> = regions.iter().map(on_background).collect();
     let add = |band: &mut Band| {
-        for (region, &colour) in regions.iter().zip(&colours) {
-            for outline in region.outlines() {
-                band.add(outline.iter().copied(), colour);
-            }
-        }
+        map.fold_cells(nothing, behind, |light, cell| {
+            let behind = background.map(|channel| light.left * f64::from(channel));
+            band.add(cell.corners(), std::array::from_fn(|i| light.rgb[i] + behind[i]));
+        })
     };
-    pixels(size, background, add)
+    pixels(map.size(), background, add)
+}
+
+#[derive(Clone, Copy)]
+struct Look {
+    rgb: [f64; 3],
+    opacity: f64,
+}
+
+/// The light of some polygons, and the share that they let through from behind.
+#[derive(Clone, Copy)]
+struct Light {
+    rgb: [f64; 3],
+    left: f64,
 }
 
 /// All pixels, row by row, where a function adds all areas to a part of the picture.
-fn pixels(size: [u32; 2], background: [u8; 3], add: impl Fn(&mut Band)) -> Vec<u8> {
+fn pixels<E>(
+    size: [u32; 2],
+    background: [u8; 3],
+    add: impl Fn(&mut Band) -> Result<(), E>,
+) -> Result<Vec<u8>, E> {
     let [width, height] = size.map(|side| side as usize);
     let rows = (AT_ONCE / width).clamp(1, height);
     let mut pixels = Vec::with_capacity(3 * width * height);
     for top in (0..height).step_by(rows) {
         let mut band = Band::new(background, width, top, rows.min(height - top));
-        add(&mut band);
+        add(&mut band)?;
         pixels.extend(band.pixels());
     }
-    pixels
+    Ok(pixels)
 }
 
 /// The pixels of an empty picture.
@@ -107,8 +134,7 @@ impl Band {
         }
     }
 
-    /// Adds a cell, or an outline of a region, with corners in a clockwise order, y down, in pixels from the
-    /// picture's corner; holes the other way round.
+    /// Adds a cell with corners in a clockwise order, y down, in pixels from the picture's corner.
     fn add(&mut self, corners: impl Iterator<Item = [f64; 2]> + Clone, rgb: [f64; 3]) {
         let next = corners.clone().cycle().skip(1);
         let (mut first, mut last) = (self.changed.len(), 0);

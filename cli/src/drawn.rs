@@ -1,8 +1,11 @@
 //! Drawings as vector pictures: filled polygons in an order to paint them, and lines above them.
 
+use std::ops::ControlFlow;
+
 use binspace::drawing::{Drawing, EdgeKind, EdgeRun, Paint, Path, Region, Stroke, VectorPicture};
 use binspace::scene::Scene;
 use binspace::view::Camera;
+use binspace::{Error, Progress};
 use clap::ValueEnum;
 
 use crate::colours::Colours;
@@ -107,12 +110,21 @@ pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style
 }
 
 /// Adds the paths of a drawing. Paths of the same look are added together if nothing lies between them.
-pub(crate) fn add_drawing(picture: &mut VectorPicture, drawing: &Drawing, style: &Style<'_>) {
+pub(crate) fn add_drawing(
+    picture: &mut VectorPicture,
+    drawing: &Drawing,
+    style: &Style<'_>,
+    progress: Option<&(dyn Fn(Progress) -> ControlFlow<()> + Sync)>,
+) -> Result<(), Error> {
     let opacity = |polygon| style.opacity(polygon);
     // Opacities from 0 to 1 are in the order of their bits.
     let look = |polygon| (style.material(polygon), style.fill(polygon), opacity(polygon).to_bits());
     let traps = |polygon| style.seams == Seams::Trap && opacity(polygon) == 1.0;
-    let drawing = drawing.batched(look).trapped(traps);
+    let batched = drawing.batched(look);
+    let drawing = match progress {
+        Some(progress) => batched.trapped_with_progress(traps, progress)?,
+        None => batched.trapped(traps),
+    };
     let paths: Vec<Path<'_>> = drawing.paths().collect();
     let material = |path: &Path<'_>| style.material(path.polygon());
     for run in paths.chunk_by(|a, b| material(a) == material(b)) {
@@ -129,6 +141,7 @@ pub(crate) fn add_drawing(picture: &mut VectorPicture, drawing: &Drawing, style:
             }
         });
     }
+    Ok(())
 }
 
 /// Adds shapes inside a group that names their material, if materials are named.

@@ -76,6 +76,7 @@ pub(crate) fn refuse_options(
 /// A failure to build a scene's tree. The message names the program's options, not the library's.
 pub fn about(scene: &Scene, error: &Error) -> Failure {
     let problem = error.to_string().replace("`max_fragments`", "`--max-fragments`");
+    let problem = problem.replace("`VisibilityMap::drawing`", "`--seams trap`");
     Failure::about(scene.name(), problem)
 }
 

@@ -288,7 +288,8 @@ impl BuildOptions {
     /// The cells are the leaves of a k-d tree. Each plane goes through one of the samples in the box that the
     /// plane divides, and is perpendicular to the axis along which these samples extend furthest. If a box
     /// has no two different samples, the plane halves the longest side of the box. The cells do not depend on
-    /// the order of the samples. Some cells may be empty. 0 `cells` count as 1.
+    /// the order of the samples. Some cells may be empty. 0 `cells` count as 1. At most
+    /// [`Partition::MAX_CELLS`] cells and 2²⁸ samples are allowed.
     ///
     /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, the extent
     /// defines the [grid](BspTree::grid) to which the corners of polygons are rounded. The tolerance of these
@@ -296,8 +297,8 @@ impl BuildOptions {
     ///
     /// # Errors
     ///
-    /// If a coordinate of the extent or the bounds is NaN or infinite, the tolerance is negative or NaN, or
-    /// memory runs out.
+    /// If a coordinate of the extent or the bounds is NaN or infinite, the tolerance is negative or NaN, there
+    /// are too many cells or samples, or memory runs out.
     pub fn partition<P: Point>(
         &self,
         extent: &Extent,

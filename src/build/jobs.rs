@@ -259,6 +259,31 @@ mod threads_tests {
         assert!(calls > 5 && tree.unwrap().stats().depth_max < MOST, "{calls}");
     }
 
+    /// One half of the scene is too deep, the other half has too many fragments.
+    #[test]
+    fn the_error_of_a_budget_does_not_depend_on_the_threads() {
+        let boards = (0..8).map(|k| {
+            let z = 0.1 * f64::from(k);
+            let [near, far] = [-1.5, -f64::from(MANY)];
+            [[near, 0.0, z], [far, 0.0, z], [far, 1.0, z], [near, 1.0, z]]
+        });
+        let scene: Vec<_> = squares().chain(boards).collect();
+        let options = BuildOptions::DEFAULT
+            .with_heuristic(Heuristic::First)
+            .with_max_depth(MOST)
+            .with_max_fragments(scene.len() + 100);
+        let mut messages = std::collections::BTreeSet::new();
+        for threads in [1, 2, 4] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            // One thread builds the front first, which is another half in the mirror image.
+            for mirrored in [1.0, -1.0] {
+                let scene = scene.iter().map(|square| square.map(|[x, y, z]| [mirrored * x, y, z]));
+                messages.insert(pool.install(|| options.build(scene).unwrap_err().to_string()));
+            }
+        }
+        assert_eq!(messages.len(), 1, "{messages:?}");
+    }
+
     /// Whichever job fails, and however many jobs stop because of it, the error of the failed job is
     /// returned.
     #[test]

@@ -396,15 +396,20 @@ impl Budget {
     /// Counts new pieces. Returns an error if there are too many.
     fn count(&self, new: usize) -> Result<(), Error> {
         let total = self.fragments.fetch_add(new, Ordering::Relaxed) + new;
-        if total > self.max_fragments {
-            Err(Kind::Fragments(self.max_fragments).error())
-        } else {
-            Ok(())
-        }
+        if total > self.max_fragments { Err(self.exceeded()) } else { Ok(()) }
     }
 
     /// Returns an error if a node at this depth is too deep.
     fn check_depth(&self, depth: usize) -> Result<(), Error> {
-        if depth > self.max_depth { Err(Kind::Depth(self.max_depth).error()) } else { Ok(()) }
+        if depth > self.max_depth { Err(self.exceeded()) } else { Ok(()) }
+    }
+
+    /// The error of both budgets. Which of the two a build exceeds first depends on the timing of threads.
+    fn exceeded(&self) -> Error {
+        let &Self { max_fragments, max_depth, .. } = self;
+        match max_depth {
+            usize::MAX => Kind::Fragments(max_fragments).error(),
+            _ => Kind::Budgets { max_fragments, max_depth }.error(),
+        }
     }
 }

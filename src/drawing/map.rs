@@ -179,8 +179,8 @@ pub struct VisiblePolygon {
 /// A cell of a [`VisibilityMap`]: a convex part of the picture in which one polygon is visible.
 #[derive(Clone, Copy, Debug)]
 pub struct MapCell<'m> {
-    polygon: usize,
-    cell: &'m Cell,
+    pub(super) polygon: usize,
+    pub(super) cell: &'m Cell,
 }
 
 impl BspTree {

@@ -90,6 +90,16 @@ impl Drawing {
         Ok(())
     }
 
+    /// Adds a path of one outline.
+    #[cfg(test)]
+    pub(super) fn push_outline(&mut self, polygon: usize, outline: &[[f64; 2]]) {
+        let start = self.outlines.len() as u32;
+        self.outlines.push(self.corners.len() as u32);
+        self.corners.extend_from_slice(outline);
+        self.edges.resize(self.corners.len(), None);
+        self.paths.push(Record { polygon, is_clipped: false, outlines: start..start + 1 });
+    }
+
     /// Appends the paths of another drawing.
     pub(super) fn append(&mut self, mut other: Self) -> Result<(), Error> {
         let [outlines, corners] = [place(self.outlines.len())?, place(self.corners.len())?];

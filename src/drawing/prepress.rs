@@ -2,8 +2,12 @@
 //! the seams between neighbours.
 
 use std::collections::{BTreeMap, BinaryHeap};
+use std::ops::{ControlFlow, Range};
 
+use super::map::{Reporter, finish_item};
 use super::paths::{Drawing, Path};
+use crate::Error;
+use crate::progress::{Progress, Watch};
 
 type Point = [f64; 2];
 
@@ -212,9 +216,12 @@ const SMALLEST: f64 = 0.1;
 /// Nothing is extended under paths that are not convex and have more corners than this. Too large: the time
 /// grows with the cube of this number. Too small: seams at polygons that are not convex.
 const MOST_CORNERS: usize = 24;
-/// The largest number of cells of the grid of sides. Too large: more memory. Too small: long lists in the
-/// cells of drawings with millions of sides.
+/// The largest number of cells of the grid of sides in the whole picture. Too large: long sides pass through
+/// many cells. Too small: many sides in a cell of drawings with millions of sides.
 const MOST_CELLS: usize = 1 << 20;
+/// The largest size of a cell, in mean lengths of sides. Too small: long sides pass through many cells. Too
+/// large: many sides in a cell where small polygons are in a small part of the picture.
+const LARGEST_CELL: f64 = 4.0;
 
 type Outline = Vec<Point>;
 type Segment = [Point; 2];
@@ -238,20 +245,44 @@ impl Drawing {
     /// [edge](Path::edges) of its polygon.
     ///
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) traps drawings automatically. Takes
-    /// O(n log n) for n corners, unless the corners are spread very unevenly.
+    /// O(n log n) for n corners, unless many sides are close to one another.
     #[must_use]
     pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {
-        let mut grid = Grid::new(self.size, self.corners.len());
-        let mut parts: Vec<Outline> = Vec::new();
-        let all = || self.paths().enumerate().filter(|(_, path)| is_opaque(path.polygon()));
-        for (number, path) in all() {
+        // Only a callback cancels.
+        self.trap(&Watch::default(), is_opaque).unwrap_or_else(|_| self.clone())
+    }
+
+    /// Traps like [`trapped`](Self::trapped), and reports progress to a callback that can cancel, like the
+    /// [queries of a map](super::VisibilityMap#progress).
+    ///
+    /// # Errors
+    ///
+    /// If the callback cancels.
+    pub fn trapped_with_progress(
+        &self,
+        is_opaque: impl Fn(usize) -> bool,
+        progress: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
+    ) -> Result<Self, Error> {
+        Reporter::new(Some(progress)).watch(1, |watch| self.trap(watch, is_opaque))
+    }
+
+    fn trap(&self, watch: &Watch<'_>, is_opaque: impl Fn(usize) -> bool) -> Result<Self, Error> {
+        let (mut parts, mut placed) = (Vec::new(), Vec::new());
+        for (number, path) in self.paths().enumerate() {
+            watch.work(path.outlines().map(<[Point]>::len).sum())?;
+            if !is_opaque(path.polygon()) {
+                continue;
+            }
             for (part, sides) in parts_of(path) {
-                for ends in sides {
-                    grid.add(PlacedSide { path: number, part: parts.len(), ends });
+                if largest_strip(&part) < SMALLEST {
+                    continue;
                 }
+                let side = |ends| PlacedSide { path: number, part: parts.len(), ends };
+                placed.extend(sides.into_iter().map(side));
                 parts.push(part);
             }
         }
+        let grid = Grid::new(self.size, self.corners.len(), placed, watch)?;
         let mut trapped = Self { overlaid: self.overlaid.clone(), ..Self::empty(self.size) };
         let (mut near, mut ring) = (Vec::new(), Outline::new());
         for (number, path) in self.paths().enumerate() {
@@ -264,8 +295,10 @@ impl Drawing {
                 for (ends, &edge) in sides(outline).zip(edges) {
                     ring.push(ends[0]);
                     let start = ring.len();
-                    if let Some(frame) = SideFrame::outside_of(ends, turn).filter(|_| reaches) {
-                        grid.find_near(ends, number, &mut near);
+                    let frame = SideFrame::outside_of(ends, turn).filter(|_| reaches);
+                    // Strips at a shorter side are too small.
+                    if let Some(frame) = frame.filter(|frame| frame.length * WIDTH >= SMALLEST) {
+                        grid.find_near(ends, number, &mut near, watch)?;
                         extend(&mut ring, &frame, &near, &parts);
                     }
                     // An extended side no longer lies on its edge.
@@ -277,9 +310,10 @@ impl Drawing {
             let mut record = path.record.clone();
             record.outlines = start..trapped.outlines.len() as u32;
             trapped.paths.push(record);
+            finish_item(watch, number, self.paths.len());
         }
         // Corners have numbers of 32 bits.
-        if trapped.corners.len() > u32::MAX as usize { self.clone() } else { trapped }
+        Ok(if trapped.corners.len() > u32::MAX as usize { self.clone() } else { trapped })
     }
 }
 
@@ -296,6 +330,17 @@ fn extend(ring: &mut Outline, frame: &SideFrame, near: &[PlacedSide], parts: &[O
 
 fn sides(outline: &[Point]) -> impl Iterator<Item = Segment> {
     (0..outline.len()).map(|i| [outline[i], outline[(i + 1) % outline.len()]])
+}
+
+/// A bound on the area of a [`strip`] under a convex neighbour: the strip is inside the neighbour, except that
+/// it may reach beyond common edges by `NEAR`.
+fn largest_strip(neighbour: &[Point]) -> f64 {
+    let around: f64 = sides(neighbour).map(length).sum();
+    0.5 * double_area(neighbour).abs() + NEAR * around
+}
+
+fn length([a, b]: Segment) -> f64 {
+    (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
 fn double_area(outline: &[Point]) -> f64 {
@@ -321,48 +366,68 @@ struct Grid {
     columns: usize,
     rows: usize,
     sides: Vec<PlacedSide>,
-    cells: Vec<Vec<u32>>,
+    /// The number of a cell and of a side that passes through the cell; sorted.
+    entries: Vec<(usize, u32)>,
 }
 
 impl Grid {
-    /// An empty grid with about as many cells as there will be sides.
-    fn new(size: [u32; 2], sides: usize) -> Self {
+    /// A grid of the given sides. The whole picture has at most about `most` cells, unless the sides are much
+    /// shorter than those cells: then many sides may be in a small part of the picture.
+    fn new(
+        size: [u32; 2],
+        most: usize,
+        sides: Vec<PlacedSide>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
         let [width, height] = size.map(f64::from);
-        let cells = sides.clamp(1, MOST_CELLS) as f64;
-        let cell = (width * height / cells).sqrt().max(1.0);
+        let cell = (width * height / most.clamp(1, MOST_CELLS) as f64).sqrt();
+        let length: f64 = sides.iter().map(|side| length(side.ends)).sum();
+        let largest = LARGEST_CELL * length / sides.len().max(1) as f64;
+        let cell = cell.min(largest).max(1.0);
         let [columns, rows] = [width, height].map(|side| (side / cell) as usize + 1);
-        Self { cell, columns, rows, sides: vec![], cells: vec![vec![]; columns * rows] }
-    }
-
-    fn add(&mut self, side: PlacedSide) {
-        let number = self.sides.len() as u32;
-        self.sides.push(side);
-        for cell in self.passed(side.ends, NEAR) {
-            self.cells[cell].push(number);
+        let mut grid = Self { cell, columns, rows, sides, entries: vec![] };
+        for (number, side) in (0..).zip(&grid.sides) {
+            for cells in grid.passed(side.ends, NEAR) {
+                watch.work(cells.len())?;
+                grid.entries.extend(cells.map(|cell| (cell, number)));
+            }
         }
+        grid.entries.sort_unstable();
+        Ok(grid)
     }
 
     /// Finds the sides of later paths near a side, sorted by the numbers of their convex parts.
-    fn find_near(&self, ends: Segment, path: usize, found: &mut Vec<PlacedSide>) {
+    fn find_near(
+        &self,
+        ends: Segment,
+        path: usize,
+        found: &mut Vec<PlacedSide>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
         found.clear();
         let mut numbers: Vec<u32> = Vec::new();
-        for cell in self.passed(ends, WIDTH) {
-            let later = |&&number: &&u32| self.sides[number as usize].path > path;
-            numbers.extend(self.cells[cell].iter().filter(later));
+        for cells in self.passed(ends, WIDTH) {
+            let first = self.entries.partition_point(|&(cell, _)| cell < cells.start);
+            let here = self.entries[first..].iter().take_while(|&&(cell, _)| cell < cells.end);
+            let before = numbers.len();
+            numbers.extend(here.map(|&(_, number)| number));
+            watch.work(1 + numbers.len() - before)?;
         }
+        numbers.retain(|&number| self.sides[number as usize].path > path);
         numbers.sort_unstable();
         numbers.dedup();
         found.extend(numbers.iter().map(|&number| self.sides[number as usize]));
+        Ok(())
     }
 
-    /// The cells with points within the distance `reach` of a side.
-    fn passed(&self, [a, b]: Segment, reach: f64) -> Vec<usize> {
-        let place = |c: f64, most: usize| ((c.max(0.0) / self.cell) as usize).min(most - 1);
+    /// The cells with points within the distance `reach` of a side, row by row.
+    fn passed(&self, [a, b]: Segment, reach: f64) -> impl Iterator<Item = Range<usize>> + use<> {
+        let &Self { cell, columns, rows, .. } = self;
+        let place = move |c: f64, most: usize| ((c.max(0.0) / cell) as usize).min(most - 1);
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
         // The change of x for each step down. Flat sides do not use this slope.
         let slope = (high[0] - low[0]) / (high[1] - low[1]).max(f64::MIN_POSITIVE);
-        let mut passed = Vec::new();
-        for row in place(low[1] - reach, self.rows)..=place(high[1] + reach, self.rows) {
+        (place(low[1] - reach, rows)..=place(high[1] + reach, rows)).map(move |row| {
             let at = |y: f64| {
                 let x = low[0] + (y.clamp(low[1], high[1]) - low[1]) * slope;
                 x.clamp(a[0].min(b[0]), a[0].max(b[0]))
@@ -372,17 +437,15 @@ impl Grid {
                 [a[0], b[0]]
             } else {
                 // The first and the last row reach beyond the picture.
-                let edge = |row: usize| row as f64 * self.cell;
+                let edge = |row: usize| row as f64 * cell;
                 let top = if row == 0 { low[1] } else { edge(row) - reach };
-                let is_last = row + 1 == self.rows;
+                let is_last = row + 1 == rows;
                 let bottom = if is_last { high[1] } else { edge(row + 1) + reach };
                 [at(top), at(bottom)]
             };
-            let [from, to] =
-                [x0.min(x1) - reach, x0.max(x1) + reach].map(|x| place(x, self.columns));
-            passed.extend((from..=to).map(|column| row * self.columns + column));
-        }
-        passed
+            let [from, to] = [x0.min(x1) - reach, x0.max(x1) + reach].map(|x| place(x, columns));
+            row * columns + from..row * columns + to + 1
+        })
     }
 }
 
@@ -604,6 +667,109 @@ mod batch_tests {
 #[cfg(test)]
 mod trap_tests {
     use super::*;
+    use crate::ErrorKind;
+    use crate::progress::one_at_a_time;
+    use crate::random::SplitMix64;
+
+    /// A drawing of one path for each outline.
+    fn drawing(outlines: &[Outline]) -> Drawing {
+        let mut drawing = Drawing::empty([640, 480]);
+        for (polygon, outline) in outlines.iter().enumerate() {
+            drawing.push_outline(polygon, outline);
+        }
+        drawing
+    }
+
+    /// `n` × `n` squares of a size, each of two triangles. Corners are moved by up to `moved` sizes.
+    fn tiles(n: usize, size: f64, moved: f64) -> Vec<Outline> {
+        let mut random = SplitMix64::new(1);
+        let mut corner = |k: usize| {
+            [k % (n + 1), k / (n + 1)]
+                .map(|c| 7.0 + size * (c as f64 + random.range(-moved, moved)))
+        };
+        let corners: Vec<Point> = (0..(n + 1) * (n + 1)).map(&mut corner).collect();
+        let mut triangles = Vec::new();
+        for first in (0..n).flat_map(|row| (0..n).map(move |column| row * (n + 1) + column)) {
+            let [a, b, c, d] = [first, first + 1, first + n + 2, first + n + 1].map(|k| corners[k]);
+            triangles.extend([vec![a, b, c], vec![a, c, d]]);
+        }
+        triangles
+    }
+
+    /// The corners of a trapped drawing, where each side is compared with each part of each later path.
+    fn trapped_by_brute_force(drawing: &Drawing) -> Vec<Point> {
+        let numbered = drawing.paths().enumerate();
+        let parts =
+            numbered.flat_map(|(n, path)| parts_of(path).into_iter().map(move |(p, _)| (n, p)));
+        let parts: Vec<(usize, Outline)> = parts.collect();
+        let mut corners = Vec::new();
+        for (number, path) in drawing.paths().enumerate() {
+            let turn = path.outlines().map(double_area).sum::<f64>().signum();
+            for ends in path.outlines().flat_map(sides) {
+                corners.push(ends[0]);
+                let Some(frame) = SideFrame::outside_of(ends, turn) else { continue };
+                let later = parts.iter().filter(|(other, _)| *other > number);
+                let mut strips: Vec<_> =
+                    later.filter_map(|(_, part)| strip(&frame, part)).collect();
+                strips.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
+                corners.extend(strips.iter().flatten().map(|&point| frame.world(point)));
+            }
+        }
+        corners
+    }
+
+    #[test]
+    fn the_grid_finds_all_neighbours_with_strips() {
+        let mut added = 0;
+        for (n, size) in [(3, 0.2), (20, 0.3), (20, 0.45), (15, 0.6), (12, 2.0), (4, 100.0)] {
+            let mut outlines = tiles(n, size, 0.3);
+            // Some large outlines above and below.
+            outlines.insert(0, vec![[5.0, 5.0], [400.0, 9.0], [300.0, 400.0]]);
+            outlines.push(vec![[7.0, 7.0], [9.0, 7.1], [300.0, 200.0]]);
+            outlines.push(vec![[0.0, 0.0], [640.0, 0.0], [640.0, 7.0], [0.0, 7.0]]);
+            let drawing = drawing(&outlines);
+            let trapped = drawing.trapped(|_| true);
+            assert_eq!(trapped.corners, trapped_by_brute_force(&drawing), "{n} {size}");
+            added += trapped.corners.len() - drawing.corners.len();
+        }
+        assert!(added > 1000, "{added}");
+    }
+
+    /// Triangles in a small part of the picture, as of a scene that is far away.
+    #[test]
+    fn trapping_small_triangles_examines_few_sides_for_each() {
+        // Ever smaller in the same place; of one size below the least strip, and above it.
+        let sizes: [fn(usize) -> f64; 3] = [|n| 30.0 / n as f64, |_| 0.2, |_| 0.9];
+        for size in sizes {
+            let mut last = None;
+            for n in [32, 45, 64] {
+                let outlines = tiles(n, size(n), 0.0);
+                let callback = one_at_a_time(|_| ControlFlow::Continue(()));
+                let watch = Watch::new(&callback);
+                drawing(&outlines).trap(&watch, |_| true).unwrap();
+                let examined = watch.examined();
+                assert!(examined < 2000 * outlines.len(), "{n}: {examined}");
+                if let Some(last) = last {
+                    assert!(examined < 5 * last / 2, "{n}: {last}, {examined}");
+                }
+                last = Some(examined);
+            }
+        }
+    }
+
+    #[test]
+    fn trapping_can_be_cancelled() {
+        let drawing = drawing(&tiles(100, 2.0, 0.0));
+        let calls = std::sync::atomic::AtomicUsize::new(0);
+        let cancel = |_| match calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) {
+            0 | 1 => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        };
+        let error = drawing.trapped_with_progress(|_| true, &cancel).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Cancelled);
+        let done = drawing.trapped_with_progress(|_| true, &|_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(done.corners, drawing.trapped(|_| true).corners);
+    }
 
     #[test]
     fn triangles_do_not_leave_the_outline() {

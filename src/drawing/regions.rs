@@ -1,15 +1,18 @@
 //! Regions of the picture in which the same polygons are visible, one behind the other.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
 use super::lines::{HalfPlane, LineTable, Table};
-use super::map::{VisibilityMap, each, finish_item, sort_by};
+use super::map::{MapCell, VisibilityMap, each, finish_item, sort_by};
 use super::paths::Area;
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Leaf, VISITED, Visible};
+use crate::error::{Error, Kind};
+use crate::parallel_map;
 use crate::progress::Watch;
-use crate::{Error, parallel_map};
 
 /// A part of the picture in which the same polygons are visible, one behind the other; see
 /// [`VisibilityMap::regions`].
@@ -23,6 +26,10 @@ pub struct Region {
 /// wait for one another. Too large: more memory for the parts.
 const TILES_AT_ONCE: usize = 64;
 
+/// The largest number of polygons that are visible behind other polygons, added up over the convex parts of
+/// all regions. Too small: pictures of many translucent polygons have no regions. Too large: memory, and time.
+const MOST_BEHIND: usize = 1 << 23;
+
 impl VisibilityMap<'_> {
     /// Divides the picture into regions. Inside a region, the same polygons are visible everywhere. Parts of
     /// the picture without a visible polygon are in no region.
@@ -30,11 +37,14 @@ impl VisibilityMap<'_> {
     /// If all polygons are opaque, each visible polygon has one region. Translucent polygons divide the
     /// polygons behind them: n overlapping polygons have up to O(n²) regions, with up to n polygons each. To
     /// avoid seams, fill each region with one blended colour, in a group whose areas are [added
-    /// up](super::VectorPicture::added_up).
+    /// up](super::VectorPicture::added_up). To blend pixels, use [`fold_cells`](Self::fold_cells), which needs
+    /// no lists of polygons.
     ///
     /// # Errors
     ///
-    /// If the operation was [cancelled](Self#progress).
+    /// If the operation was [cancelled](Self#progress), or if there would be too many regions: if in the
+    /// convex parts of all regions together, more than 2²³ (about 8 million) polygons would be visible behind
+    /// other polygons.
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
         self.reporter.watch(2, |watch| {
             let mut regions = self.stacks(watch)?.regions(&self.primitives.lines, watch)?;
@@ -44,20 +54,89 @@ impl VisibilityMap<'_> {
         })
     }
 
+    /// Divides the picture into convex cells, and calls `see` for each cell with a value that is folded over
+    /// the polygons that are visible in the cell, front to back. In each cell, the same polygons are visible
+    /// everywhere. `see` also receives the cell with its rearmost polygon. Cells do not overlap. Parts of the
+    /// picture without a visible polygon are in no cell.
+    ///
+    /// The value of no polygons is `nothing`. `behind` returns the value with one more polygon, given its
+    /// number. Cells share the values of the polygons in front of them, so a cell with many polygons takes no
+    /// longer than other cells.
+    ///
+    /// ```
+    /// use binspace::drawing::ViewOptions;
+    /// use binspace::view::Camera;
+    /// use binspace::{BspTree, glam::DVec3};
+    ///
+    /// let square = |x: f64, y: f64| [[x, y, 0.0], [x + 2.0, y, 0.0], [x + 2.0, y, 2.0], [x, y, 2.0]];
+    /// let tree = BspTree::build([square(0.0, 0.0), square(1.0, -1.0)])?;
+    /// let (direction, middle) = (DVec3::Y, DVec3::new(1.5, 0.0, 1.0));
+    /// let camera = Camera::parallel(direction, DVec3::Z, middle, 4.0, [80, 80])?;
+    /// let options = ViewOptions::DEFAULT.with_opacities(vec![0.5, 0.5]);
+    /// let map = tree.visibility(&camera, &options)?;
+    ///
+    /// // The light that the polygons stop, in pixels.
+    /// let mut stopped = 0.0;
+    /// let left = |left: &f64, _polygon| left * 0.5;
+    /// map.fold_cells(1.0, left, |left, cell| stopped += (1.0 - left) * cell.area())?;
+    /// assert!((stopped - 400.0 * (2.0 * 0.5 + 2.0 * 0.5 + 2.0 * 0.75)).abs() < 1e-6);
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If the operation was [cancelled](Self#progress).
+    pub fn fold_cells<T>(
+        &self,
+        nothing: T,
+        behind: impl Fn(&T, usize) -> T,
+        mut see: impl FnMut(&T, MapCell<'_>),
+    ) -> Result<(), Error> {
+        let mut values = vec![nothing];
+        let mut fold = |divided: &Divided| {
+            values.truncate(1);
+            for layer in &divided.layers[1..] {
+                let polygon = self.primitives.polygon(layer.item);
+                values.push(behind(&values[layer.before as usize], polygon));
+            }
+            for LayeredCell { cell, layer, .. } in &divided.cells {
+                let item = divided.layers[*layer as usize].item;
+                let polygon = self.primitives.polygon(item);
+                see(&values[*layer as usize], MapCell { polygon, cell });
+            }
+            Ok(())
+        };
+        self.reporter.watch(1, |watch| self.for_each_divided(None, watch, &mut fold))
+    }
+
     /// The visible parts of polygons that lie one behind the other. Counts as one phase of the progress.
     fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
         let mut stacks = Stacks::default();
         stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
+        let sum = AtomicUsize::new(0);
+        self.for_each_divided(Some(&sum), watch, &mut |divided| {
+            stacks.add(divided, |item| self.primitives.polygon(item))
+        })?;
+        Ok(stacks)
+    }
+
+    /// Calls a function with each tile, divided into convex parts. Counts as one phase of the progress.
+    fn for_each_divided(
+        &self,
+        sum: Option<&AtomicUsize>,
+        watch: &Watch<'_>,
+        see: &mut dyn FnMut(&Divided) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let (mut done, count) = (0, self.leaves.len());
         for leaves in self.leaves.chunks(TILES_AT_ONCE) {
-            let divided = |leaf| Divided::new(leaf, &self.primitives, watch);
+            let divided = |leaf| Divided::new(leaf, &self.primitives, sum, watch);
             for divided in parallel_map::map(leaves.iter().collect(), divided)? {
-                stacks.add(&divided, |item| self.primitives.polygon(item))?;
+                see(&divided)?;
                 finish_item(watch, done, count);
                 done += 1;
             }
         }
-        Ok(stacks)
+        Ok(())
     }
 }
 
@@ -190,18 +269,22 @@ pub(super) struct LayeredCell {
 pub(super) struct ItemLayer {
     pub(super) item: u32,
     pub(super) before: u32,
+    /// The number of items in front.
+    depth: u32,
     /// The newest of the layers directly behind this layer.
     newest: u32,
 }
 
 impl Divided {
-    /// Divides a tile: combines its visible cells, front to back, with the parts found so far.
-    pub(super) fn new(
+    /// Divides a tile: combines its visible cells, front to back, with the parts found so far. `sum` counts
+    /// the items behind others in the parts of all tiles, up to [`MOST_BEHIND`].
+    fn new(
         leaf: &Leaf,
         primitives: &Primitives<'_>,
+        sum: Option<&AtomicUsize>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let none = ItemLayer { item: u32::MAX, before: 0, newest: 0 };
+        let none = ItemLayer { item: u32::MAX, before: 0, depth: 0, newest: 0 };
         let mut divided = Self { cells: vec![], layers: vec![none] };
         if is_opaque(leaf, primitives) {
             watch.work(leaf.cells.len() * CUT)?;
@@ -234,6 +317,13 @@ impl Divided {
                 };
                 watch.work(CUT)?;
                 let LayeredCell { layer, .. } = open.swap_remove(i);
+                let depth = divided.layers[layer as usize].depth as usize;
+                let more = outside.len() * depth + usize::from(layer != 0);
+                let is_too_many =
+                    |sum: &AtomicUsize| sum.fetch_add(more, Ordering::Relaxed) + more > MOST_BEHIND;
+                if sum.is_some_and(is_too_many) {
+                    return Err(Kind::Regions(MOST_BEHIND).error());
+                }
                 left.extend(outside.drain(..).map(|cell| LayeredCell::new(cell, layer)));
                 let behind = LayeredCell::new(common, divided.behind(layer, *item));
                 if primitives.is_opaque(*item) { &mut divided.cells } else { &mut left }
@@ -253,7 +343,8 @@ impl Divided {
             return newest;
         }
         let layer = self.layers.len() as u32;
-        self.layers.push(ItemLayer { item, before, newest: 0 });
+        let depth = if before == 0 { 0 } else { self.layers[before as usize].depth + 1 };
+        self.layers.push(ItemLayer { item, before, depth, newest: 0 });
         self.layers[before as usize].newest = layer;
         layer
     }
@@ -279,7 +370,7 @@ impl VisibilityMap<'_> {
                 watch.work(leaf.cells.len() * CUT)?;
                 leaf.cells.iter().try_for_each(|Visible { item, cell }| see(*item, cell))?;
             } else {
-                let divided = Divided::new(leaf, &self.primitives, watch)?;
+                let divided = Divided::new(leaf, &self.primitives, None, watch)?;
                 for part in &divided.cells {
                     for item in each(watch, CUT, divided.items(part)) {
                         see(item?, &part.cell)?;
@@ -301,4 +392,105 @@ impl LayeredCell {
 /// Whether all visible items in a tile are opaque.
 fn is_opaque(leaf: &Leaf, primitives: &Primitives<'_>) -> bool {
     leaf.cells.iter().all(|visible| primitives.is_opaque(visible.item))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell as Counter;
+    use std::collections::BTreeMap;
+
+    use glam::DVec3;
+
+    use crate::drawing::{ViewOptions, VisibilityMap};
+    use crate::random::SplitMix64;
+    use crate::view::Camera;
+    use crate::{BspTree, ErrorKind};
+
+    type Square = [[f64; 3]; 4];
+
+    fn square([x, y, z]: [f64; 3], r: f64, turn: f64) -> Square {
+        let corner = |k: f64| {
+            let (sin, cos) = (turn + k * std::f64::consts::FRAC_PI_2).sin_cos();
+            [x + r * cos, y + r * sin, z]
+        };
+        [0.0, 1.0, 2.0, 3.0].map(corner)
+    }
+
+    /// Calls a function with the map of squares from above, all translucent except each `opaque`-th.
+    fn with_map<R>(
+        squares: &[Square],
+        opaque: usize,
+        see: impl FnOnce(VisibilityMap<'_>) -> R,
+    ) -> R {
+        let tree = BspTree::build(squares).unwrap();
+        let size = [320, 240];
+        let camera = Camera::parallel(-DVec3::Z, DVec3::Y, DVec3::ZERO, 6.0, size).unwrap();
+        let opacities = (0..squares.len()).map(|k| if (k + 1) % opaque == 0 { 1.0 } else { 0.5 });
+        let options = ViewOptions::DEFAULT.with_opacities(opacities.collect());
+        see(tree.visibility(&camera, &options).unwrap())
+    }
+
+    fn scattered(count: usize) -> Vec<Square> {
+        let mut random = SplitMix64::new(3);
+        let mut square = |k: usize| {
+            let [x, y] = [(); 2].map(|()| random.range(-2.0, 2.0));
+            square([x, y, 0.01 * k as f64], random.range(1.0, 3.0), random.range(0.0, 6.0))
+        };
+        (0..count).map(&mut square).collect()
+    }
+
+    /// Cells are compared with regions by the area of each list of polygons.
+    #[test]
+    fn folded_cells_have_the_polygons_and_the_areas_of_regions() {
+        for (count, opaque) in [(1, 2), (12, 5), (40, 1), (40, 7), (70, 1000)] {
+            with_map(&scattered(count), opaque, |map| {
+                let mut areas: BTreeMap<Vec<usize>, f64> = BTreeMap::new();
+                let behind = |front: &Vec<usize>, polygon| [&front[..], &[polygon]].concat();
+                map.fold_cells(vec![], behind, |polygons, cell| {
+                    assert_eq!(polygons.last(), Some(&cell.polygon()));
+                    *areas.entry(polygons.clone()).or_default() += cell.area();
+                })
+                .unwrap();
+                let regions = map.regions().unwrap();
+                assert_eq!(regions.len(), areas.len());
+                for region in &regions {
+                    let area = areas[region.polygons()];
+                    assert!((region.area() - area).abs() < 1e-6, "{:?}", region.polygons());
+                }
+            });
+        }
+    }
+
+    /// Squares inside one another, each in front of the next smaller one.
+    #[test]
+    fn values_are_folded_once_however_many_polygons_are_in_front() {
+        let mut counts = Vec::new();
+        for count in [15, 30, 60_usize] {
+            let squares: Vec<Square> = (0..count)
+                .map(|k| square([0.0, 0.0, -0.01 * k as f64], 2.0 - 0.01 * k as f64, 0.4))
+                .collect();
+            let folded = Counter::new(0);
+            with_map(&squares, 1000, |map| {
+                let behind = |front: &usize, _| {
+                    folded.set(folded.get() + 1);
+                    front + 1
+                };
+                let mut deepest = 0;
+                map.fold_cells(0, behind, |&depth, _| deepest = deepest.max(depth)).unwrap();
+                assert_eq!(deepest, count);
+            });
+            counts.push(folded.get());
+        }
+        assert!(counts[1] < 5 * counts[0] / 2 && counts[2] < 5 * counts[1] / 2, "{counts:?}");
+    }
+
+    #[test]
+    fn too_many_regions_are_an_error_that_says_what_to_do() {
+        with_map(&scattered(100), 1000, |map| assert!(map.regions().unwrap().len() > 3000));
+        with_map(&scattered(400), 1000, |map| {
+            let error = map.regions().unwrap_err();
+            assert_eq!(error.kind(), ErrorKind::TooLarge);
+            assert!(error.to_string().contains("paint whole polygons one over another"), "{error}");
+        });
+    }
 }

@@ -2,11 +2,12 @@
 //! used for associative searching", 1975), along the axis of the samples' largest extent.
 
 use super::{CellRange, Extent, Partition, SplitPlane};
-use crate::Error;
+use crate::error::{Error, Kind};
 use crate::exact::faces::CellBox;
-use crate::exact::{Faces, LATTICE_LIMIT};
+use crate::exact::{Faces, LATTICE_LIMIT, MAX_NAMES};
 use crate::faces::{Precision, Tolerance, empty_faces};
 use crate::input::Point;
+use crate::memory::{push, reserve};
 
 impl Partition {
     /// Divides a scene into `cells` cells with about equally many samples each. The grid includes `room`.
@@ -18,6 +19,13 @@ impl Partition {
         samples: impl IntoIterator<Item = P>,
         cells: usize,
     ) -> Result<Self, Error> {
+        if cells > Self::MAX_CELLS {
+            let problem = format!(
+                "{cells} cells are too many: divide the scene into at most {}",
+                Self::MAX_CELLS
+            );
+            return Err(Kind::Argument(problem).error());
+        }
         let bounds = |&Extent { low, high, .. }: &Extent| {
             if low.cmpgt(high).any() { Default::default() } else { [low, high] }
         };
@@ -27,15 +35,20 @@ impl Partition {
         let bounds = bounds(&whole);
         let Faces { lattice, tolerance, .. } = empty_faces(bounds, tolerance, precision)?;
         let mut points: Vec<[f64; 3]> = Vec::new();
-        for sample in samples {
+        for (number, sample) in samples.into_iter().enumerate() {
+            if number == MAX_NAMES {
+                let problem =
+                    format!("there are more than {MAX_NAMES} samples: pass only some of them");
+                return Err(Kind::Argument(problem).error());
+            }
             let point = sample.to_dvec3();
             // Samples only choose planes, so NaN and infinite samples are left out.
             if point.is_finite() {
                 let limit = |c: f64| c.clamp(-LATTICE_LIMIT, LATTICE_LIMIT);
-                points.push(lattice.snap(point).map(limit));
+                push(&mut points, lattice.snap(point).map(limit))?;
             }
         }
-        let planes = planes(&mut points, bounds.map(|corner| lattice.snap(corner)), cells.max(1));
+        let planes = planes(&mut points, bounds.map(|corner| lattice.snap(corner)), cells.max(1))?;
         Ok(Self { lattice, tolerance, planes })
     }
 }
@@ -47,8 +60,9 @@ struct Samples {
     room: CellBox,
 }
 
-fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPlane> {
-    let mut planes = Vec::with_capacity(cells - 1);
+fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Result<Vec<SplitPlane>, Error> {
+    let mut planes = Vec::new();
+    reserve(&mut planes, cells - 1)?;
     let subtree = CellRange { plane: 0, cells: 0..cells };
     let mut parts = vec![Samples { subtree, samples: 0..samples.len(), room }];
     while let Some(Samples { subtree, samples: range, room }) = parts.pop() {
@@ -66,7 +80,7 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPla
         parts.push(Samples { subtree: front, samples: behind..range.end, room: front_room });
         parts.push(Samples { subtree: back, samples: range.start..behind, room: back_room });
     }
-    planes
+    Ok(planes)
 }
 
 /// The plane that divides a box into two parts, for `count` cells in total. The plane contains a sample:
@@ -116,4 +130,20 @@ fn move_behind(samples: &mut [[f64; 3]], plane: SplitPlane) -> usize {
         }
     }
     behind
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::partition::Extent;
+    use crate::{BuildOptions, ErrorKind};
+
+    #[test]
+    fn samples_that_do_not_end_are_an_error() {
+        let mut extent = Extent::default();
+        extent.include(&[[0.0; 3], [1.0; 3]]);
+        // These samples are left out, so they take no memory.
+        let samples = std::iter::repeat([f64::NAN; 3]);
+        let error = BuildOptions::DEFAULT.partition(&extent, samples, 2).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::InvalidInput, "{error}");
+    }
 }

@@ -11,7 +11,7 @@ use smallvec::SmallVec;
 
 use crate::exact::faces::{CellBox, EVERYWHERE};
 use crate::exact::{Eye, Faces, LATTICE_LIMIT, Lattice, Plane};
-use crate::input::{Point, Polygon};
+use crate::input::{MAX_CORNERS, Point, Polygon};
 use crate::viewpoint::Viewpoint;
 
 /// A scene divided into cells: a k-d tree of planes perpendicular to the axes, whose leaves are the cells.
@@ -133,6 +133,10 @@ impl CellRange {
 }
 
 impl Partition {
+    /// The largest number of cells of a partition, about 17 million.
+    // Too small: scenes cannot be divided. Too large: a forged file takes much memory.
+    pub const MAX_CELLS: usize = 1 << 24;
+
     /// Returns the number of cells, at least one.
     pub fn cells(&self) -> usize {
         self.planes.len() + 1
@@ -221,17 +225,18 @@ impl Partition {
     /// The test is conservative: a cell is listed if the cell's box meets the polygon's box, enlarged by the
     /// tolerance, and also meets a thin layer around the polygon's plane. So a few listed cells may contain
     /// no part of the polygon, which does no harm. If a corner of the polygon is NaN or outside the
-    /// partition's grid, all cells are listed, and building any of these cells with the polygon returns an
-    /// error.
+    /// partition's grid, or if the polygon has more than 2²² corners, all cells are listed, and building any
+    /// of these cells with the polygon returns an error.
     ///
     /// Takes O(corners + cells reached · log cells) time.
     pub fn reached_by(&self, polygon: &(impl Polygon + ?Sized), cells: &mut Vec<usize>) {
         cells.clear();
+        let corners = polygon.corners().take(MAX_CORNERS + 1);
         let corners: SmallVec<[[f64; 3]; 8]> =
-            polygon.corners().map(|corner| self.lattice.snap(corner.to_dvec3())).collect();
+            corners.map(|corner| self.lattice.snap(corner.to_dvec3())).collect();
         let Some(&first) = corners.first() else { return };
         let is_on_lattice = |corner: &[f64; 3]| corner.iter().all(|c| c.abs() <= LATTICE_LIMIT);
-        if !corners.iter().all(is_on_lattice) {
+        if corners.len() > MAX_CORNERS || !corners.iter().all(is_on_lattice) {
             cells.extend(0..self.cells());
             return;
         }
@@ -303,13 +308,18 @@ impl Default for Extent {
 }
 
 impl Extent {
-    /// Includes a polygon.
+    /// Includes a polygon. A polygon with more than 2²² corners is left out: no cell can be built with it.
     pub fn include(&mut self, polygon: &(impl Polygon + ?Sized)) {
-        for corner in polygon.corners().map(Point::to_dvec3) {
+        let mut own = Self::default();
+        for (number, corner) in polygon.corners().map(Point::to_dvec3).enumerate() {
+            if number == MAX_CORNERS {
+                return;
+            }
             let box_of_it = if corner.is_finite() { [corner; 2] } else { [DVec3::NAN; 2] };
-            self.include_box(box_of_it);
+            own.include_box(box_of_it);
         }
-        self.precision = self.precision.max(polygon.precision());
+        own.precision = polygon.precision();
+        self.merge(&own);
     }
 
     /// Includes another extent.

@@ -10,9 +10,6 @@ use crate::exact::{LATTICE_LIMIT, Lattice};
 use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"part", version: 1 };
-/// The largest number of planes. Too small: real partitions are rejected. Too large: a forged file may take
-/// much memory.
-const MOST: usize = 1 << 28;
 
 impl Partition {
     /// Writes the partition. [`read`](Self::read) returns an equal partition.
@@ -63,7 +60,7 @@ impl Partition {
         let mut file = Reader::new(input, KIND)?;
         let lattice = Lattice::read(&mut file)?;
         let tolerance = file.f64("tolerance")?;
-        let planes = file.list("planes", MOST, |bytes: &[u8; 12]| SplitPlane {
+        let planes = file.list("planes", Self::MAX_CELLS - 1, |bytes: &[u8; 12]| SplitPlane {
             axis: u32_at(bytes, 0) as usize,
             at: u64_at(bytes, 4) as i64 as f64,
         })?;

@@ -30,8 +30,8 @@ pub use judge::{Comparison, DepthImage, Verdict, compare, zbuffer};
 pub(crate) use judge::{Layers, compare_by, is_open, zbuffer_layers};
 #[cfg(feature = "drawing")]
 pub(crate) use line::{Sheet, edge, normal_of};
+pub(crate) use painter::for_each_shaded;
 pub use painter::{Image, NONE, blend, brightness, colour_of, depth_map, difference, picture};
-pub(crate) use painter::{covers, for_each_shaded};
 #[cfg(feature = "drawing")]
 pub(crate) use rays::RayOrigin;
 pub use rays::Rays;

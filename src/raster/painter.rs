@@ -83,11 +83,6 @@ pub fn for_each_run(
     }
 }
 
-/// Whether a piece covers a pixel.
-pub(crate) fn covers(rays: &Rays, faces: &Faces, piece: Piece<'_>, [x, y]: [u32; 2]) -> bool {
-    Coverage::new(rays, faces, piece.face, piece.outline).is_some_and(|piece| piece.covers(x, y))
-}
-
 /// The number that [`Image::faces`] contains for a pixel without a face.
 pub const NONE: u32 = u32::MAX;
 

@@ -119,7 +119,8 @@ impl BspTree {
     /// Reads a tree that [`write`](Self::write) has written. Reads only the tree's bytes, so other data may
     /// follow.
     ///
-    /// Reading splits the faces by the stored planes again, which takes O(n · mean depth) time. Unlike
+    /// Reading splits the faces by the stored planes again, which takes O(n · mean depth) time for polygons
+    /// with few corners; a cut takes time proportional to the corners of the piece that is cut. Unlike
     /// building, reading does not choose planes, so reading takes a quarter to a half of the build time. (If
     /// the builder chose planes in almost no time and split most faces, as with
     /// [`Heuristic::First`](crate::Heuristic::First), reading takes nine tenths of the build time.) `input`

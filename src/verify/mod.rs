@@ -1,11 +1,13 @@
 //! Compares a tree's picture with a depth buffer's picture, and the list of an order with the iterator. No
 //! other module uses both the tree and the independent depth buffer.
 
-use crate::Error;
+use std::collections::HashMap;
+use std::ops::Range;
 
+use crate::Error;
 use crate::paint::{Pieces, paint_list};
 use crate::raster::{
-    Comparison, DepthImage, Image, Layers, Painter, Rays, compare_by, covers, is_open,
+    Comparison, DepthImage, Image, Layers, Painter, Rays, compare_by, for_each_run, is_open,
     zbuffer_layers,
 };
 use crate::tree::{BspTree, Fragment};
@@ -125,30 +127,83 @@ fn compare_by_planes(tree: &BspTree, rays: &Rays, painted: &Image, truth: &Image
     if faces.tolerance() == 0.0 {
         return compare_by(rays, faces, [painted, truth], 0.0, |_, _| false);
     }
-    let mut sorted = None;
-    let mut pieces = Pieces::default();
-    // The fragment of a face that covers a pixel.
-    let mut fragment_at = |face: u32, pixel| {
-        let by_face: &Vec<(u32, u32)> = sorted.get_or_insert_with(|| {
-            let mut by_face: Vec<_> = tree.fragments().map(|f| (f.face(), f.index())).collect();
-            by_face.sort_unstable();
-            by_face
-        });
-        let first = by_face.partition_point(|&(other, _)| other < face);
-        let of_face = by_face[first..].iter().take_while(|&&(other, _)| other == face);
-        let mut fragments = of_face.map(|&(_, fragment)| fragment);
-        fragments.find(|&fragment| {
-            let piece = pieces.of(&tree.fragment(fragment));
-            covers(rays, faces, piece, pixel)
-        })
-    };
+    let mut painted_runs = PaintedRuns::new(tree, rays);
     compare_by(rays, faces, [painted, truth], 0.0, |met, pixel| {
-        let [nearest, other] = met.map(|face| fragment_at(face, pixel));
+        let [nearest, other] = met.map(|face| painted_runs.fragment_at(face, pixel));
         let parting = nearest.zip(other).and_then(|(a, b)| tree.parting(a, b));
         parting.is_some_and(|(plane, [near, far])| {
             is_open(rays, faces, plane, [(met[0], near), (met[1], far)], pixel)
         })
     })
+}
+
+/// The fragments of faces in the pixels of a picture. The fragments of a face are painted once, when the face
+/// is first looked up.
+struct PaintedRuns<'a> {
+    tree: &'a BspTree,
+    rays: &'a Rays,
+    /// Each fragment after its face, sorted; empty before the first call.
+    by_face: Vec<(u32, u32)>,
+    /// The runs of each face, sorted by row and column. Fragments of one face do not overlap.
+    runs: HashMap<u32, Vec<Run>>,
+    /// The number of fragments painted.
+    #[cfg(test)]
+    painted: usize,
+}
+
+/// Neighbouring pixels of a row that a fragment covers.
+struct Run {
+    row: u32,
+    columns: Range<u32>,
+    fragment: u32,
+}
+
+impl<'a> PaintedRuns<'a> {
+    fn new(tree: &'a BspTree, rays: &'a Rays) -> Self {
+        Self {
+            tree,
+            rays,
+            by_face: vec![],
+            runs: HashMap::new(),
+            #[cfg(test)]
+            painted: 0,
+        }
+    }
+
+    /// The fragment of a face that covers a pixel.
+    fn fragment_at(&mut self, face: u32, [x, y]: [u32; 2]) -> Option<u32> {
+        if !self.runs.contains_key(&face) {
+            let runs = self.paint(face);
+            self.runs.insert(face, runs);
+        }
+        let runs = &self.runs[&face];
+        let next = runs.partition_point(|run| (run.row, run.columns.start) <= (y, x));
+        let run = runs[..next].last()?;
+        (run.row == y && run.columns.contains(&x)).then_some(run.fragment)
+    }
+
+    fn paint(&mut self, face: u32) -> Vec<Run> {
+        let &mut Self { tree, rays, ref mut by_face, .. } = self;
+        if by_face.is_empty() {
+            by_face.extend(tree.fragments().map(|f| (f.face(), f.index())));
+            by_face.sort_unstable();
+        }
+        let first = by_face.partition_point(|&(other, _)| other < face);
+        let of_face = by_face[first..].iter().take_while(|&&(other, _)| other == face);
+        let (mut pieces, mut runs) = (Pieces::default(), Vec::new());
+        for &(_, fragment) in of_face {
+            #[cfg(test)]
+            {
+                self.painted += 1;
+            }
+            let piece = pieces.of(&tree.fragment(fragment));
+            for_each_run(rays, tree.faces(), piece, |row, columns| {
+                runs.push(Run { row, columns, fragment });
+            });
+        }
+        runs.sort_unstable_by_key(|run| (run.row, run.columns.start));
+        runs
+    }
 }
 
 /// The forms of an order: back to front, then front to back.

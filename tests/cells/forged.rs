@@ -27,6 +27,27 @@ fn with_planes(planes: [(u32, i64); PLANES]) -> Result<Partition, String> {
     Partition::read(&file[..]).map_err(|error| error.to_string())
 }
 
+/// One more plane than a partition can have is refused for this reason. The largest number is refused because
+/// the planes are missing.
+#[test]
+fn a_file_has_at_most_the_planes_that_a_partition_can_have() {
+    let mut extent = Extent::default();
+    extent.include(&[DVec3::splat(-1.0), DVec3::splat(1.0)]);
+    let partition = BuildOptions::DEFAULT.partition(&extent, [DVec3::ZERO], 1).expect("one cell");
+    let mut file = Vec::new();
+    partition.write(&mut file).expect("a list takes all");
+    let count = file.len() - 4 - 8;
+    for (planes, says) in [
+        (Partition::MAX_CELLS - 1, "it is truncated within its planes"),
+        (Partition::MAX_CELLS, "above the limit of 16777215"),
+    ] {
+        file[count..count + 8].copy_from_slice(&(planes as u64).to_le_bytes());
+        seal(&mut file);
+        let message = Partition::read(&file[..]).expect_err("no planes follow").to_string();
+        assert!(message.contains(says), "{planes}: {message}");
+    }
+}
+
 #[test]
 fn planes_are_within_the_grid() {
     for axis in 0..3 {

@@ -1,7 +1,7 @@
 //! Partitions: their cells, and the polygons that reach them.
 
 use crate::cells::polygons::{stars, tiles, triangles};
-use binspace::partition::Extent;
+use binspace::partition::{Extent, Partition};
 use binspace::{ErrorKind, Preparation};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use testkit::divided::{Divided, extent};
@@ -206,6 +206,45 @@ fn an_extent_that_cannot_be_divided_is_an_error() {
     }
     partition.reached_by(&[[0.0; 3]; 0], &mut reached);
     assert!(reached.is_empty());
+}
+
+/// A polygon whose corners do not end.
+struct Endless;
+
+impl Polygon for Endless {
+    type Point = [f64; 3];
+
+    fn corners(&self) -> impl Iterator<Item = [f64; 3]> {
+        std::iter::repeat([0.5, 0.5, 0.0])
+    }
+}
+
+#[test]
+fn a_polygon_that_does_not_end_is_an_error_when_a_cell_is_built() {
+    let options = BuildOptions::DEFAULT;
+    let polygon = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut all = Extent::default();
+    all.include(&polygon);
+    let without = all;
+    all.include(&Endless);
+    assert_eq!(all, without);
+    let partition = options.partition(&all, polygon, 3).unwrap();
+    let mut reached = Vec::new();
+    partition.reached_by(&Endless, &mut reached);
+    assert_eq!(reached, [0, 1, 2]);
+    let error = options.build_cell(&partition, 1, [Endless]).unwrap_err();
+    assert_eq!(error.polygon(), Some(0), "{error}");
+}
+
+#[test]
+fn too_many_cells_are_an_error_and_neither_a_panic_nor_an_abort() {
+    let mut extent = Extent::default();
+    extent.include(&[DVec3::ZERO, DVec3::ONE]);
+    for cells in [Partition::MAX_CELLS + 1, 1 << 40, usize::MAX] {
+        let error = BuildOptions::DEFAULT.partition(&extent, [DVec3::ZERO], cells).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::InvalidInput, "{error}");
+        assert!(error.to_string().contains("at most 16777216"), "{error}");
+    }
 }
 
 /// The tree of a cell remains the tree of this cell when polygons are added.

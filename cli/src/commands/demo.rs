@@ -146,7 +146,7 @@ fn write_pictures(
     let map = tree.visibility(camera, &ViewOptions::DEFAULT);
     let drawn = map.and_then(|map| map.drawing()).map_err(|error| job::about(scene, &error))?;
     let mut picture = VectorPicture::new(camera.size()).with_background(BACKGROUND);
-    add_drawing(&mut picture, &drawn, &style);
+    add_drawing(&mut picture, &drawn, &style, None).map_err(|error| job::about(scene, &error))?;
     let file = NewFile::create(&folder.join(format!("{builtin}.svg")))?;
     file.write(|out| out.write_all(picture.to_svg().as_bytes()))
 }

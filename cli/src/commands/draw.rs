@@ -96,10 +96,8 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
             _ if lines => coverage::blank(size, background),
             true => coverage::picture(map, background, |polygon| style.fill(polygon)),
             false => {
-                view.show(Some(Progress::share("dividing the picture")));
-                let regions = map.regions().map_err(about)?;
-                view.show(Some(Progress::spinner("drawing")));
-                coverage::blended(size, background, &regions, &style)
+                view.show(Some(Progress::share("drawing")));
+                coverage::blended(map, background, &style).map_err(about)?
             }
         };
         let strokes = view.strokes(Some(map), edges, format).map_err(about)?;
@@ -239,9 +237,8 @@ impl<'a> View<'a> {
             let drawn = paths.iter().map(|path| path.polygon());
             figures.visible = drawn.collect::<HashSet<usize>>().len();
         }
-        self.show(Some(Progress::spinner("joining paths")));
-        add_drawing(picture, &drawing, style);
-        Ok(())
+        self.show(Some(Progress::share("joining paths")));
+        add_drawing(picture, &drawing, style, self.options.progress)
     }
 
     fn strokes(

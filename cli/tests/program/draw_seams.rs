@@ -250,7 +250,7 @@ fn regions_of_many_colours_are_as_exact_as_silhouettes() {
     assert!(2.0 * edges.share() < plain.share(), "{figures}");
 }
 
-/// Pixels of translucent polygons, by the areas of regions.
+/// Pixels of translucent polygons, by the areas of cells.
 #[test]
 fn pixels_of_translucent_polygons_are_the_means_of_many_samples() {
     let folder = Folder::new("seams_png");

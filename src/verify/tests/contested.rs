@@ -8,7 +8,7 @@ use crate::random::SplitMix64;
 use crate::raster::tests::oracle::{Height, height, meets, meets_piece};
 use crate::raster::{Painter, Rays, Verdict, compare_by, zbuffer};
 use crate::tree::BspTree;
-use crate::verify::compare_by_planes;
+use crate::verify::{PaintedRuns, compare_by_planes};
 use crate::view::Camera;
 use crate::{BuildOptions, Heuristic};
 use glam::DVec3;
@@ -141,4 +141,38 @@ fn exact_rays_confirm_the_pixels_that_planes_excuse() {
         }
     }
     assert!(counts[0] > 300 && counts[1] > 300, "{counts:?} pixels excused and not");
+}
+
+/// Walls that cut a floor into strips. Every pixel of the floor is looked up, twice.
+#[test]
+fn fragments_are_painted_once_however_many_pixels_are_contested() {
+    let mut met = 0;
+    for walls in [10, 20, 40_u32] {
+        let wall = |k: u32| {
+            let x = f64::from(k) + 0.5;
+            [[x, -9.0, 0.0], [x, -8.0, 0.0], [x, -8.0, 1.0], [x, -9.0, 1.0]]
+        };
+        let far = f64::from(walls);
+        let floor = [[0.0, 0.0, 0.0], [far, 0.3, 0.0], [far, 9.0, 0.0], [0.0, 9.0, 0.0]];
+        let polygons = (0..walls).map(wall).chain([floor]);
+        let first = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+        let tree = first.build(polygons).unwrap();
+        let is_floor = |fragment: &crate::Fragment<'_>| fragment.polygon() == walls as usize;
+        let strips: Vec<_> = tree.fragments().filter(is_floor).collect();
+        assert_eq!(strips.len(), walls as usize + 1);
+        let middle = DVec3::new(0.5 * far, 4.0, 0.0);
+        let size = [24, 16];
+        let camera = Camera::parallel(-DVec3::Z, DVec3::Y, middle, 12.0, size).unwrap();
+        let rays = Rays::new(&camera, tree.faces()).unwrap();
+        let mut runs = PaintedRuns::new(&tree, &rays);
+        let face = strips[0].face();
+        for pixel in (0..2 * size[0] * size[1]).map(|i| [i % size[0], i / size[0] % size[1]]) {
+            let expected = meets(&rays, tree.faces(), face, pixel[0], pixel[1])
+                .map(|_| fragment_of(&tree, &rays, face, pixel));
+            assert_eq!(runs.fragment_at(face, pixel), expected, "{pixel:?}");
+            met += usize::from(expected.is_some());
+        }
+        assert_eq!(runs.painted, strips.len());
+    }
+    assert!(met > 1000, "{met}");
 }
