@@ -4,6 +4,7 @@
 use std::cmp::Ordering;
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::cell::Cell;
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
@@ -47,6 +48,9 @@ struct CommonSide {
 
 /// Whether two faces cross each other in a line. The key is the line and the faces.
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
+
+/// For each line, the pairs of faces whose planes meet in the line and of which one was cut there.
+type Cuts = Table<HalfPlane, SmallVec<[[u32; 2]; 1]>>;
 
 impl VisibilityMap<'_> {
     /// Returns the lines in which polygons intersect, as [runs](EdgeRun) of the kind [`EdgeKind::Crossing`].
@@ -126,13 +130,14 @@ impl VisibilityMap<'_> {
         })?;
         let mut common = Vec::new();
         let mut are_crossing = Known::default();
+        let cuts = self.primitives.lines.cuts_of_faces();
         for line in sides.chunk_by(|a, b| a.line == b.line) {
             for (i, a) in line.iter().enumerate() {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
                 for b in each(watch, VISITED, ahead) {
                     let b = b?;
                     if b.is_negative != a.is_negative
-                        && self.do_cross(a, b, inner, &mut are_crossing)
+                        && self.do_cross(a, b, inner, &cuts, &mut are_crossing)
                     {
                         common.push(CommonSide::new([a, b], inner));
                     }
@@ -228,8 +233,16 @@ impl VisibilityMap<'_> {
         (ends.map(place), ends)
     }
 
-    /// Whether two faces cross each other in the line between their cells.
-    fn do_cross(&self, a: &CutSide, b: &CutSide, inner: &InnerEdges, known: &mut Known) -> bool {
+    /// Whether two faces cross each other in the line between their cells. A face of a flat surface may have
+    /// been cut by the plane of a coplanar neighbour, or have cut the other face together with it.
+    fn do_cross(
+        &self,
+        a: &CutSide,
+        b: &CutSide,
+        inner: &InnerEdges,
+        cuts: &Cuts,
+        known: &mut Known,
+    ) -> bool {
         let (lines, faces) = (&self.primitives.lines, self.primitives.lines.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
             return false;
@@ -244,6 +257,14 @@ impl VisibilityMap<'_> {
                 // Only edges on this line count: other edges may end on it.
                 let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
                 return bend(a, b.face).or_else(|| bend(b, a.face)).is_some();
+            }
+            let is_one = |face: u32, made: u32| face == made || faces.are_coplanar(face, made);
+            let mut made = cuts.get(&a.line).into_iter().flatten();
+            let is_cut = made.any(|&[c, d]| {
+                is_one(one, c) && is_one(other, d) || is_one(one, d) && is_one(other, c)
+            });
+            if is_cut && !faces.are_coplanar(one, other) {
+                return true;
             }
             let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));
             let cut = one.cut(&other);

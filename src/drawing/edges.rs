@@ -1,6 +1,7 @@
 //! Edges of polygons, divided into visible and hidden runs.
 
 use std::cmp::Ordering;
+use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -28,6 +29,8 @@ impl VisibilityMap<'_> {
     ///
     /// - edges that triangulation made inside a polygon, except silhouettes. (A polygon that is not planar
     ///   may be seen from its front on one side of such an edge, and from behind on the other side.)
+    /// - edges between two polygons that lie in one plane within the
+    ///   [tolerance](crate::BspTree#exactness), side by side;
     /// - edges whose polygons are all seen exactly edge-on, or left out by the [options](super::ViewOptions);
     /// - edges along a border of the picture whose polygons are all outside the picture.
     ///
@@ -153,6 +156,9 @@ impl VisibilityMap<'_> {
         if !numbered.any(|(i, side)| shows(side) && edge.is_in_picture(faces, i, *side)) {
             return;
         }
+        if edge.is_in_one_plane(faces) {
+            return;
+        }
         let (face, k) = edge.faces[owner];
         let (polygon, kind) = (faces.polygon(face), edge.kind(faces, &sides));
         let number = faces.outline_edge(face, k);
@@ -264,6 +270,25 @@ impl SharedEdge {
         self.segment.is_some_and(|segment| segment.picture.is_eq() || segment.picture == inside)
     }
 
+    /// Whether the edge only divides a flat surface: its two faces are coplanar, and neither is folded back on
+    /// the other.
+    fn is_in_one_plane(&self, faces: &Faces) -> bool {
+        let &[(one, _), (other, _)] = &self.faces[..] else { return false };
+        faces.are_coplanar(one, other) && self.angle(faces, [one, other]) < FRAC_PI_2
+    }
+
+    /// The angle at which two faces meet at the edge: 0 on a flat surface.
+    fn angle(&self, faces: &Faces, both: [u32; 2]) -> f64 {
+        let normal = |face: u32| {
+            let normal = faces.plane(PlaneId::face(face)).normal_f64();
+            (normal / normal.abs().max_element()).normalize_or_zero()
+        };
+        let [a, b]: [DVec3; 2] = both.map(normal);
+        // Two polygons that traverse the edge in one direction have their fronts on different sides.
+        let b = if self.is_turned(faces, 0, 1) { b } else { -b };
+        a.cross(b).length().atan2(a.dot(b))
+    }
+
     /// The kind of the edge, given the sides that the edge's faces show.
     fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
         let &[(one, _), (other, _)] = &self.faces[..] else { return EdgeKind::Border };
@@ -273,13 +298,7 @@ impl SharedEdge {
         if sides[0] != second || sides[0].is_eq() {
             return EdgeKind::Silhouette;
         }
-        let normal = |face: u32| {
-            let normal = faces.plane(PlaneId::face(face)).normal_f64();
-            (normal / normal.abs().max_element()).normalize_or_zero()
-        };
-        let (a, b): (DVec3, DVec3) = (normal(one), normal(other));
-        let b = if is_folded { -b } else { b };
-        EdgeKind::Crease(a.cross(b).length().atan2(a.dot(b)))
+        EdgeKind::Crease(self.angle(faces, [one, other]))
     }
 }
 
@@ -295,7 +314,7 @@ pub enum EdgeKind {
     /// that is not planar can also form a silhouette. (If the fronts of the two polygons are on different
     /// sides of the surface, one polygon counts as reversed.)
     Silhouette,
-    /// Two polygons meet at this angle, in radians: 0 if they lie in one plane, π if one polygon is folded
+    /// Two polygons meet at this angle, in radians: near 0 on a smooth surface, π if one polygon is folded
     /// back on the other.
     Crease(f64),
     /// The run's [polygon](EdgeRun::polygon) intersects the polygon with this index, in input order.

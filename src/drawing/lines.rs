@@ -294,6 +294,19 @@ impl<'t> LineTable<'t> {
         cut.is_some_and(|cut| cut.line() == half.line())
     }
 
+    /// For each line, the pairs of faces whose planes meet in the line, if one of the two was cut there.
+    pub(super) fn cuts_of_faces(&self) -> Table<HalfPlane, SmallVec<[[u32; 2]; 1]>> {
+        let mut found: Table<HalfPlane, SmallVec<[[u32; 2]; 1]>> = Table::default();
+        for (key, half) in &self.halves {
+            if let Key::Cut(one, plane) = *key
+                && let PlaneKind::Face(other) = plane.kind()
+            {
+                found.entry(half.positive()).or_default().push([one, other]);
+            }
+        }
+        found
+    }
+
     /// The key that a line was first made for.
     fn key(&self, line: u32) -> Key {
         self.keys[line as usize]

@@ -9,6 +9,7 @@ mod coincidences;
 mod crossings;
 mod extremes;
 mod fans;
+mod flat_faces;
 mod grid_crossings;
 mod hidden;
 mod hidden_crossings;

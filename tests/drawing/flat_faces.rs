@@ -1,0 +1,67 @@
+//! Boxes whose flat sides are triangles with rounded corners, at default tolerances: their crossings are as
+//! long as with a tolerance of 0, and no edge divides a flat side.
+
+use super::map_of;
+use binspace::drawing::{EdgeKind, EdgeRun};
+use binspace::glam::{DQuat, EulerRot};
+use testkit::prelude::*;
+
+/// The corners of a box of triangles.
+const SIDES: [[usize; 4]; 6] =
+    [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+
+fn boxes(dice: &mut Dice) -> Vec<Vec<DVec3>> {
+    let mut triangles = Vec::new();
+    for _ in 0..2 {
+        let mut angle = || dice.range(-3.0, 3.0);
+        let turn = DQuat::from_euler(EulerRot::XYZ, angle(), angle(), angle());
+        let (at, size) = (dice.point(-0.4, 0.4), dice.point(0.3, 1.2));
+        let corner = |k: usize| {
+            let sign = |bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            at + turn * (dvec3(sign(0), sign(1), sign(2)) * size)
+        };
+        for side in SIDES {
+            let [a, b, c, d] = side.map(corner);
+            let is_other = dice.below(2) == 0;
+            let both = if is_other { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+            triangles.extend(both.map(|triangle| triangle.to_vec()));
+        }
+    }
+    triangles
+}
+
+fn length(runs: &[EdgeRun]) -> f64 {
+    runs.iter().map(|run| (run.ends[0][0] - run.ends[1][0]).hypot(run.ends[0][1] - run.ends[1][1])).sum()
+}
+
+#[test]
+fn flat_sides_of_triangles_have_whole_crossings_and_no_edges_inside() {
+    let (mut crossed, mut creases) = (0, 0);
+    for seed in seeds(60) {
+        let mut dice = Dice(seed);
+        let polygons = boxes(&mut dice);
+        let single: Vec<Vec<[f32; 3]>> =
+            polygons.iter().map(|p| p.iter().map(|p| p.as_vec3().to_array()).collect()).collect();
+        let eye = dice.point(-1.0, 1.0).normalize() * 8.0;
+        let size = [400, 300];
+        let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.6, size).unwrap();
+        let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
+        for (name, tree, exactly) in [
+            ("f64", BspTree::build(&polygons).unwrap(), exact.clone().build(&polygons).unwrap()),
+            ("f32", BspTree::build(&single).unwrap(), exact.build(&single).unwrap()),
+        ] {
+            let lengths = [&tree, &exactly]
+                .map(|tree| length(&map_of(tree, &camera).crossings(Hidden::Skip).unwrap()));
+            crossed += usize::from(lengths[1] > 10.0);
+            let [found, expected] = lengths;
+            assert!((found - expected).abs() < 0.02, "{seed}, {name}: {found} for {expected}");
+            for run in map_of(&tree, &camera).edges(Hidden::Keep).unwrap() {
+                if let EdgeKind::Crease(angle) = run.kind {
+                    creases += 1;
+                    assert!(angle > 1.0, "{seed}, {name}: {run:?}");
+                }
+            }
+        }
+    }
+    enough!(crossed > 60, creases > 1000; "{crossed} {creases}");
+}
