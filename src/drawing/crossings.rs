@@ -88,33 +88,41 @@ impl VisibilityMap<'_> {
     fn visible_crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
             let inner = InnerEdges::of(self.primitives.lines.frame.faces, watch)?;
-            let mut common = self.common_sides(&inner, watch)?;
-            let key = |side: &CommonSide| (side.line, self.polygons_of(side.faces));
-            sort_by(&mut common, watch, |a, b| {
-                key(a).cmp(&key(b)).then(a.places[0].total_cmp(&b.places[0]))
-            })?;
-            // Crossings of two translucent polygons are found from either side.
-            let mut joined: Vec<CommonSide> = Vec::new();
-            for side in common {
-                match joined.last_mut() {
-                    Some(before)
-                        if key(before) == key(&side)
-                            && side.places[0] <= before.places[1] + SHORTEST =>
-                    {
-                        if side.places[1] > before.places[1] {
-                            before.places[1] = side.places[1];
-                            before.ends[1] = side.ends[1];
-                        }
-                    }
-                    _ => joined.push(side),
-                }
-            }
-            joined.retain(|side| side.places[1] - side.places[0] >= SHORTEST);
-            let run = |side: &CommonSide| self.run(side.faces, side.ends, true);
-            let mut runs: Vec<EdgeRun> = joined.iter().map(run).collect();
+            let common = self.common_sides(&inner, watch)?;
+            let mut runs = self.visible_runs(common, watch)?;
             sort_by(&mut runs, watch, |a, b| a.polygon.cmp(&b.polygon))?;
             Ok(runs)
         })
+    }
+
+    /// The runs that some common sides of cells make together.
+    fn visible_runs(
+        &self,
+        mut common: Vec<CommonSide>,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<EdgeRun>, Error> {
+        let key = |side: &CommonSide| (side.line, self.polygons_of(side.faces));
+        sort_by(&mut common, watch, |a, b| {
+            key(a).cmp(&key(b)).then(a.places[0].total_cmp(&b.places[0]))
+        })?;
+        // Crossings of two translucent polygons are found from either side.
+        let mut joined: Vec<CommonSide> = Vec::new();
+        for side in common {
+            match joined.last_mut() {
+                Some(before)
+                    if key(before) == key(&side)
+                        && side.places[0] <= before.places[1] + SHORTEST =>
+                {
+                    if side.places[1] > before.places[1] {
+                        before.places[1] = side.places[1];
+                        before.ends[1] = side.ends[1];
+                    }
+                }
+                _ => joined.push(side),
+            }
+        }
+        joined.retain(|side| side.places[1] - side.places[0] >= SHORTEST);
+        Ok(joined.iter().map(|side| self.run(side.faces, side.ends, true)).collect())
     }
 
     /// The common parts of two sides of cells, line by line. The two cells lie on opposite sides of the line,
@@ -330,7 +338,11 @@ impl VisibilityMap<'_> {
             pairs.extend(of_shown.map(|[below, above]| Pair { below, above }));
             sort_unique(&mut pairs, watch)?;
             let crossings = crossings_of(&pairs, primitives, &inner, watch)?;
-            let (mut list, mut visible) = (Vec::new(), Vec::new());
+            // Visible runs are those of `Hidden::Skip`: a crossing with a flat surface of several faces shows
+            // in the line of any of their planes.
+            let visible_runs = self.visible_runs(shown.clone(), watch)?.into_iter();
+            let mut list: Vec<(EdgeRun, u32)> = visible_runs.map(|run| (run, u32::MAX)).collect();
+            let mut visible = Vec::new();
             for (number, crossing) in (0..).zip(&crossings) {
                 let course = &crossing.segment.course;
                 let first = shown.partition_point(|side| side.faces < crossing.faces);
@@ -342,9 +354,9 @@ impl VisibilityMap<'_> {
                 }));
                 sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
                 let parts = parts(course, visible.iter().copied()).into_iter();
-                list.extend(parts.map(|(ends, is_visible)| {
-                    (self.run(crossing.faces, ends, is_visible), number)
-                }));
+                let hidden = parts.filter(|&(_, is_visible)| !is_visible);
+                let run = |(ends, _)| (self.run(crossing.faces, ends, false), number);
+                list.extend(hidden.map(run));
             }
             sort_by(&mut list, watch, |(a, _), (b, _)| a.polygon.cmp(&b.polygon))?;
             let segment = |number: u32| Some(crossings[number as usize].segment);

@@ -128,7 +128,8 @@ impl VisibilityMap<'_> {
         see: &mut dyn FnMut(&Divided) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let (mut done, count) = (0, self.leaves.len());
-        for leaves in self.leaves.chunks(TILES_AT_ONCE) {
+        // A few tiles are divided in several steps, too, so that progress is reported in between.
+        for leaves in self.leaves.chunks(TILES_AT_ONCE.min(count / 8 + 1)) {
             let divided = |leaf| Divided::new(leaf, &self.primitives, sum, watch);
             for divided in parallel_map::map(leaves.iter().collect(), divided)? {
                 see(&divided)?;

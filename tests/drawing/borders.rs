@@ -28,12 +28,21 @@ fn halves([a, b]: [[i64; 2]; 2]) -> impl Iterator<Item = [i64; 2]> {
 
 /// The halves of edges in the picture, by edge and middle, and whether each is visible. The sheet of an edge
 /// covers half of a square beside each half of the edge. The half of the edge is in the picture, or visible,
-/// if this half of the square is.
+/// if this half of the square is. Two sheets side by side in one plane have no edge between them.
 fn expected(sheets: &[Sheet], picture: [i64; 2]) -> BTreeMap<(Ends, [i64; 2]), bool> {
     let mut found = BTreeMap::new();
+    let is_inside_a_plane = |common: &Ends| {
+        let numbered = sheets.iter().flat_map(|sheet| (0..4).map(move |k| (sheet, k)));
+        let own: Vec<_> = numbered.filter(|&(sheet, k)| ends(sheet, k) == *common).collect();
+        let plane = |sheet: &Sheet| (sheet.slope, sheet.height);
+        matches!(own[..], [(a, i), (b, k)] if plane(a) == plane(b) && i != k)
+    };
     for (i, sheet) in sheets.iter().enumerate() {
         for k in 0..4 {
             let ends = ends(sheet, k);
+            if is_inside_a_plane(&ends) {
+                continue;
+            }
             for [x, y] in halves(ends.map(|[x, y, _]| [4 * x, 4 * y])) {
                 let inside = match k {
                     0 => [x - 1, y],
