@@ -223,9 +223,9 @@ impl Preparer {
         Ok(())
     }
 
-    /// Appends the faces of more polygons to a finished scene, on the scene's lattice and with the scene's
-    /// tolerance. More polygons than `limit` are an error. The polygons are numbered from `first` on. After
-    /// an error, some of the new faces may have been appended.
+    /// Appends the faces of more polygons to a finished scene, on the scene's lattice. Raises the tolerance if
+    /// the new polygons are less precise. More polygons than `limit` are an error. The polygons are numbered
+    /// from `first` on. After an error, some of the new faces may have been appended.
     pub(crate) fn append<P: Polygon>(
         &mut self,
         faces: &mut Faces,
@@ -238,6 +238,7 @@ impl Preparer {
         if let Some(polygon) = self.input.first_off(faces.lattice()) {
             return Err(Kind::OffGrid.of_polygon(polygon));
         }
+        self.raise_tolerance(faces);
         let before = faces.len();
         let report = self.add_all(faces, &SnapParams::of(faces), watch);
         faces.faces[before..].iter_mut().for_each(|face| face.polygon += first as u32);
@@ -291,9 +292,21 @@ impl Preparer {
         Ok(())
     }
 
+    /// Raises the tolerance of a scene to the default tolerance of the shapes that were read last: a decal in
+    /// `f32` lies on a wall in `f64`. A tolerance of 0 remains.
+    fn raise_tolerance(&self, faces: &mut Faces) {
+        if faces.tolerance == 0.0 || self.input.len() == 0 {
+            return;
+        }
+        let bounds = self.input.bounds(None);
+        let precision = Precision::new(self.input.precision, bounds);
+        let own = SnapParams::new(faces.lattice, bounds, Tolerance::Default, precision);
+        faces.tolerance = faces.tolerance.max(own.tolerance);
+    }
+
     fn read_thin<P: Polygon>(
         &mut self,
-        faces: &Faces,
+        faces: &mut Faces,
         shapes: impl IntoIterator<Item = P>,
         kind: Shape,
         watch: &Watch<'_>,
@@ -301,7 +314,10 @@ impl Preparer {
         self.input.read(shapes, usize::MAX, watch).map_err(|error| error.of(kind))?;
         match self.input.first_off(&faces.lattice) {
             Some(number) => Err(Kind::OffGrid.of_polygon(number).of(kind)),
-            None => Ok(()),
+            None => {
+                self.raise_tolerance(faces);
+                Ok(())
+            }
         }
     }
 }

@@ -144,7 +144,10 @@ use crate::viewpoint::Ray;
 /// previous or next corner. Closed lines and repeated corners follow the same rule. If more than two segments
 /// meet at a point, some segments may be painted after the point.
 ///
-/// The tree's [tolerance](BspTree#exactness) also applies to lines and points:
+/// The tolerance of an overlay is the tree's [tolerance](BspTree#exactness) or the [default
+/// tolerance](crate::Tolerance::Default) of the overlay's shapes, whichever is larger. So a decal in `f32` lies
+/// on a wall in `f64`. If the tree's tolerance is 0, so is the overlay's. The tolerance also applies to lines
+/// and points:
 ///
 /// - a segment or point that reaches no further from a plane than the tolerance lies on the plane;
 /// - a segment that reaches further than the tolerance on only one side of a plane counts as entirely on that
@@ -194,6 +197,8 @@ struct Base {
     polygons: usize,
     faces: usize,
     fragments: usize,
+    /// The tolerance of the tree, in lattice units.
+    tolerance: f64,
 }
 
 impl Base {
@@ -203,6 +208,7 @@ impl Base {
             polygons: tree.preparation.polygons,
             faces: tree.faces.len(),
             fragments: tree.len(),
+            tolerance: tree.faces.tolerance(),
         }
     }
 }
@@ -226,6 +232,7 @@ impl Overlay {
     /// Removes all polygons, lines and points.
     pub fn clear(&mut self) {
         self.faces.truncate(self.base.faces);
+        self.faces.tolerance = self.base.tolerance;
         self.pieces.clear();
         self.insertions.clear(self.base.fragments);
         self.preparation = Preparation::default();

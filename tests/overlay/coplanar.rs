@@ -219,3 +219,36 @@ fn lines_of_no_length_have_no_piece() {
     assert_eq!((piece.line(), piece.number(), piece.index()), (3, 1, 1));
     assert!(overlay.piece(1).is_none() && overlay.shape(0).is_none() && overlay.shape(2).is_none());
 }
+
+/// The corners of a card in `f32` are further behind a wall in `f64` than the tree's tolerance. So are lines and
+/// points.
+#[test]
+fn shapes_of_single_precision_lie_on_a_wall_of_double_precision() {
+    let wall = [[-1.0, -1.0, -0.5], [1.0, -1.0, 0.1], [1.0, 1.0, 0.5], [-1.0, 1.0, -0.1]];
+    let at = |x: f64, y: f64| [x as f32, y as f32, (0.3 * x + 0.2 * y) as f32];
+    let mut judged = 0;
+    for (options, is_on) in
+        [(BuildOptions::DEFAULT, true), (BuildOptions::DEFAULT.with_tolerance(0.0), false)]
+    {
+        let tree = options.build([wall]).expect("a tree");
+        let mut overlay = Overlay::new(&tree);
+        let mut dice = Dice(4);
+        let mut behind = 0;
+        for _ in 0..60 {
+            let [x, y] = [(); 2].map(|()| dice.range(-0.9, 0.7));
+            let card = [at(x, y), at(x + 0.1, y), at(x + 0.1, y + 0.1), at(x, y + 0.1)];
+            let shapes = Shapes::NONE.with_polygons([card]).with_lines([[card[0], card[2]]]);
+            overlay.replace_with(&tree, shapes.with_points([card[1]])).expect("on the grid");
+            for eye in [[0.1, 0.2, 5.0], [0.1, 0.2, -5.0]] {
+                let mut order = Vec::new();
+                overlay.order(&tree, Viewpoint::eye(eye)).expect("its tree").write_into(&mut order);
+                let is_after = order.first() == Some(&0);
+                assert!(is_after || !is_on, "{card:?} from {eye:?}: {order:?}");
+                behind += usize::from(!is_after);
+                judged += 1;
+            }
+        }
+        assert!(is_on || behind > 30, "{behind}");
+    }
+    assert_eq!(judged, 240);
+}
