@@ -24,7 +24,8 @@ impl Faces {
     /// wide in every direction.
     pub(crate) fn width(&self, face: u32) -> f64 {
         let [a, b, c] = self.triangle(face).map(DVec3::from);
-        let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+        let longest =
+            (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
         self.size(face) / longest.sqrt()
     }
 

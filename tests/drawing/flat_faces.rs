@@ -31,7 +31,9 @@ fn boxes(dice: &mut Dice) -> Vec<Vec<DVec3>> {
 }
 
 fn length(runs: &[EdgeRun]) -> f64 {
-    runs.iter().map(|run| (run.ends[0][0] - run.ends[1][0]).hypot(run.ends[0][1] - run.ends[1][1])).sum()
+    runs.iter()
+        .map(|run| (run.ends[0][0] - run.ends[1][0]).hypot(run.ends[0][1] - run.ends[1][1]))
+        .sum()
 }
 
 #[test]

@@ -59,9 +59,10 @@ pub(in crate::build) fn settle(
             break;
         }
     }
-    let largest = tried.iter().copied().reduce(|best, face| {
-        if set.faces.is_larger(face, best) { face } else { best }
-    });
+    let largest = tried
+        .iter()
+        .copied()
+        .reduce(|best, face| if set.faces.is_larger(face, best) { face } else { best });
     set.divide(largest.map_or(plane, PlaneId::face), usize::MAX, division);
     Ok(())
 }
@@ -102,9 +103,7 @@ pub(super) fn larger(
                 continue;
             }
             let prepared = set.prepare(PlaneId::face(large.face));
-            if prepared.contains(set.faces, small.face)
-                && (is_cut || overlap(set, large, small))
-            {
+            if prepared.contains(set.faces, small.face) && (is_cut || overlap(set, large, small)) {
                 (best, at) = (Some(large.face), k);
             }
         }
@@ -116,7 +115,8 @@ pub(super) fn larger(
 /// known, so it takes little time to use the most certain plane of those that are meant to be one: small cards
 /// of `f32` separate each other elsewhere.
 fn largest_around(set: &Set<'_>, face: u32, division: &Division) -> Option<u32> {
-    let beside = set.pieces.iter().zip(&division.sides).filter(|(_, side)| **side != Side::Coplanar);
+    let beside =
+        set.pieces.iter().zip(&division.sides).filter(|(_, side)| **side != Side::Coplanar);
     beside.map(|(piece, _)| piece.face).fold(None, |best, other| {
         let least = best.unwrap_or(face);
         let is_better = set.prepare(PlaneId::face(other)).contains(set.faces, face)
@@ -174,9 +174,8 @@ impl Steepest {
 
 /// Whether the boxes of two pieces come within a distance of each other.
 fn touch(a: &Piece, b: &Piece, distance: f64) -> bool {
-    (0..3).all(|axis| {
-        a.min[axis] <= b.max[axis] + distance && b.min[axis] <= a.max[axis] + distance
-    })
+    (0..3)
+        .all(|axis| a.min[axis] <= b.max[axis] + distance && b.min[axis] <= a.max[axis] + distance)
 }
 
 /// If outlines have more pairs of corners, they count as overlapping. Too small: planes give way without

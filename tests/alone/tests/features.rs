@@ -96,7 +96,8 @@ fn layers_are_cut_and_put_in_order() {
 
     let rect = [[-50.0, -20.0], [50.0, 20.0]];
     let mut page = Layers::new([[-100.0; 2], [100.0; 2]]);
-    let layers = [Layer::new(rect, DMat4::from_rotation_y(1.0)), Layer::from_f32(rect, Mat4::IDENTITY)];
+    let layers =
+        [Layer::new(rect, DMat4::from_rotation_y(1.0)), Layer::from_f32(rect, Mat4::IDENTITY)];
     assert!(page.update(&layers).unwrap() && !page.update(&layers).unwrap());
     assert_eq!((page.visible(), page.len()), (2, 3));
     assert!(page.back_to_front().all(|piece| piece.vertices().len() == 4));
