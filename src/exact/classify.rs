@@ -84,9 +84,9 @@ impl PreparedPlane {
         }
     }
 
-    /// The rounded normal, of length 1.
-    pub(crate) fn unit_normal(&self) -> DVec3 {
-        DVec3::from_array(self.normal).normalize_or_zero()
+    /// The rounded normal.
+    pub(crate) fn normal(&self) -> DVec3 {
+        DVec3::from_array(self.normal)
     }
 
     /// The name of the plane.

@@ -13,26 +13,13 @@ use super::plane::RoundedNormal;
 use super::{Faces, PlaneId, PreparedPlane, Side};
 
 impl Faces {
-    /// Twice the area of the reference triangle of a face, with a relative error of at most 2⁻³⁴, in square
-    /// lattice units. Of two faces, the face with the larger triangle has the more certain plane.
+    /// Whether one face is larger than another, by the areas of their reference triangles, rounded: the larger
+    /// face has the more certain plane. Of faces of equal size, the earlier face is larger.
     #[inline]
-    pub(crate) fn size(&self, face: u32) -> f64 {
-        self.normal_length(face, &RoundedNormal::through(self.triangle(face)))
-    }
-
-    /// The least height of a face's reference triangle, rounded, in lattice units. The face is at least half as
-    /// wide in every direction.
-    pub(crate) fn width(&self, face: u32) -> f64 {
-        let [a, b, c] = self.triangle(face).map(DVec3::from);
-        let longest =
-            (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-        self.size(face) / longest.sqrt()
-    }
-
-    /// Whether one face is larger than another, for the purposes of this file. Of faces of equal size, the
-    /// earlier face is larger.
     pub(crate) fn is_larger(&self, one: u32, other: u32) -> bool {
-        let [a, b] = [one, other].map(|face| self.size(face));
+        let [a, b] = [one, other].map(|face| {
+            DVec3::from_array(RoundedNormal::through(self.triangle(face)).normal).length_squared()
+        });
         a > b || a == b && one < other
     }
 

@@ -8,7 +8,7 @@ use super::ChooseContext;
 use super::set::Set;
 use crate::Error;
 use crate::build::piece::{Division, Piece};
-use crate::exact::{PlaneId, PlaneKind, PreparedPlane, Side};
+use crate::exact::{PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side};
 use crate::progress::Watch;
 
 /// The largest number of planes that are tried in place of one plane. Too small: of several pieces, each
@@ -31,7 +31,7 @@ pub(in crate::build) fn settle(
     mut plane: PlaneId,
 ) -> Result<(), Error> {
     let mut tried: SmallVec<[u32; MOST_PLANES]> = SmallVec::new();
-    let mut on: Vec<u32> = Vec::new();
+    let mut on: SmallVec<[u32; 16]> = SmallVec::new();
     loop {
         if division.plane.is_none() {
             rules.watch.work(set.pieces.len())?;
@@ -44,10 +44,13 @@ pub(in crate::build) fn settle(
             on.extend(sides.filter(|(_, side)| **side == Side::Coplanar).map(|(piece, _)| piece));
         }
         let is_cut = |piece: u32| division.sides[piece as usize] == Side::Spanning;
-        let mut rival = larger(set, prepared, [&on, &division.near], is_cut, &tried, rules.watch)?;
+        let mut rival = match on.is_empty() {
+            true => None,
+            false => larger(set, prepared, [&on, &division.near], is_cut, &tried, rules.watch)?,
+        };
         if let PlaneKind::Face(face) = plane.kind() {
             tried.push(face);
-            if rules.tuning.frames.is_some() {
+            if !set.planes.is_empty() {
                 rules.watch.work(set.pieces.len())?;
                 rival = largest_around(set, face, division).or(rival);
             }
@@ -78,32 +81,41 @@ pub(super) fn larger(
     tried: &[u32],
     watch: &Watch<'_>,
 ) -> Result<Option<u32>, Error> {
-    let steepest = Steepest::new(set, plane, on);
+    let faces = set.faces;
+    let around = Around::of(set, on);
+    let normal = plane.normal();
     let (mut best, mut at) = (None, 0);
     for &beside in near {
         let other = &set.pieces[beside as usize];
         let is_cut = is_cut(beside);
-        if !steepest.may_be_on(set, other, is_cut) {
+        if !is_cut && !around.touches(other, faces.tolerance()) {
+            continue;
+        }
+        let rounded = RoundedNormal::through(faces.triangle(other.face));
+        let other_normal = DVec3::from_array(rounded.normal);
+        let sine = normal.cross(other_normal).length_squared();
+        if sine > STEEP * STEEP * normal.length_squared() * other_normal.length_squared() {
             continue;
         }
         watch.work(on.len())?;
         // Pieces of a large floor are met from the last place where one was found: neighbours in the set are
         // often neighbours in space.
-        let touching = (at..on.len()).chain(0..at).filter(|&k| {
+        for k in (at..on.len()).chain(0..at) {
             let piece = &set.pieces[on[k] as usize];
-            is_cut || touch(piece, other, set.faces.tolerance())
-        });
-        for k in touching {
-            let piece = &set.pieces[on[k] as usize];
-            let is_larger = set.faces.is_larger(other.face, piece.face);
+            let is_larger = faces.is_larger(other.face, piece.face);
+            // A piece that is on the plane of the set's own face was classified so.
+            let is_known = !is_larger && plane.id() == PlaneId::face(piece.face);
+            if is_known || !is_cut && !touch(piece, other, faces.tolerance()) {
+                continue;
+            }
             let [large, small] = if is_larger { [other, piece] } else { [piece, other] };
             if tried.contains(&large.face)
-                || best.is_some_and(|best| !set.faces.is_larger(large.face, best))
+                || best.is_some_and(|best| !faces.is_larger(large.face, best))
+                || !set.prepare(PlaneId::face(large.face)).contains(faces, small.face)
             {
                 continue;
             }
-            let prepared = set.prepare(PlaneId::face(large.face));
-            if prepared.contains(set.faces, small.face) && (is_cut || overlap(set, large, small)) {
+            if is_cut || overlap(set, large, small) {
                 (best, at) = (Some(large.face), k);
             }
         }
@@ -115,60 +127,51 @@ pub(super) fn larger(
 /// known, so it takes little time to use the most certain plane of those that are meant to be one: small cards
 /// of `f32` separate each other elsewhere.
 fn largest_around(set: &Set<'_>, face: u32, division: &Division) -> Option<u32> {
-    let beside =
-        set.pieces.iter().zip(&division.sides).filter(|(_, side)| **side != Side::Coplanar);
-    beside.map(|(piece, _)| piece.face).fold(None, |best, other| {
-        let least = best.unwrap_or(face);
-        let is_better = set.prepare(PlaneId::face(other)).contains(set.faces, face)
-            && set.faces.is_larger(other, least);
-        if is_better { Some(other) } else { best }
-    })
+    let first = set.faces.corners(face)[0];
+    let mut best = None;
+    for (piece, side) in set.pieces.iter().zip(&division.sides) {
+        if *side != Side::Coplanar
+            && let Some(plane) = set.planes.get(piece.face as usize)
+            && plane.distance(first).abs() <= plane.slack()
+            && set.faces.is_larger(piece.face, best.unwrap_or(face))
+            && plane.contains(set.faces, face)
+        {
+            best = Some(piece.face);
+        }
+    }
+    best
 }
 
-/// How steep a face may be against a plane and still be coplanar with a piece on the plane.
-struct Steepest {
-    /// The unit normal of the plane.
-    normal: DVec3,
-    /// The sine of the largest angle.
-    sine: f64,
-    /// The box around the pieces on the plane.
+/// The sine of the largest angle between a plane and a face that may be coplanar with a piece on the plane.
+/// (Only pieces less than twenty times as wide as the tolerance lie on planes at larger angles.) Too small:
+/// wider pieces lose input order. Too large: neighbours in a mesh are examined in vain.
+const STEEP: f64 = 0.1;
+
+/// The box around some pieces.
+struct Around {
     min: [f64; 3],
     max: [f64; 3],
 }
 
-impl Steepest {
-    fn new(set: &Set<'_>, plane: &PreparedPlane, on: &[u32]) -> Self {
+impl Around {
+    fn of(set: &Set<'_>, pieces: &[u32]) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        let mut width = f64::INFINITY;
-        for &piece in on {
+        for &piece in pieces {
             let piece = &set.pieces[piece as usize];
             for axis in 0..3 {
-                min[axis] = min[axis].min(piece.min[axis]);
-                max[axis] = max[axis].max(piece.max[axis]);
+                // Not `min` and `max`, which take more instructions because of NaN.
+                min[axis] = if piece.min[axis] < min[axis] { piece.min[axis] } else { min[axis] };
+                max[axis] = if piece.max[axis] > max[axis] { piece.max[axis] } else { max[axis] };
             }
-            width = width.min(set.faces.width(piece.face));
         }
-        // A face is within τ of both planes along its width, so these differ by at most 4 τ there. The factor
-        // leaves room for rounding.
-        let sine = 8.0 * set.faces.tolerance() / width + 1e-9;
-        Self { normal: plane.unit_normal(), sine, min, max }
+        Self { min, max }
     }
 
-    /// Whether a piece may be coplanar with a piece on the plane, and touch it unless it may be anywhere.
-    fn may_be_on(&self, set: &Set<'_>, piece: &Piece, anywhere: bool) -> bool {
-        let tolerance = set.faces.tolerance();
-        let is_beside = |axis: usize| {
-            piece.max[axis] + tolerance < self.min[axis]
-                || self.max[axis] + tolerance < piece.min[axis]
-        };
-        if !anywhere && (0..3).any(is_beside) {
-            return false;
-        }
-        self.sine >= 1.0 || {
-            let normal = set.faces.normal(piece.face);
-            let sine = normal.cross(self.normal).length_squared();
-            sine <= self.sine * self.sine * normal.length_squared()
-        }
+    fn touches(&self, piece: &Piece, distance: f64) -> bool {
+        (0..3).all(|axis| {
+            piece.min[axis] <= self.max[axis] + distance
+                && self.min[axis] <= piece.max[axis] + distance
+        })
     }
 }
 
