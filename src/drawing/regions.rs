@@ -127,14 +127,16 @@ impl VisibilityMap<'_> {
         watch: &Watch<'_>,
         see: &mut dyn FnMut(&Divided) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let (mut done, count) = (0, self.leaves.len());
-        // A few tiles are divided in several steps, too, so that progress is reported in between.
-        for leaves in self.leaves.chunks(TILES_AT_ONCE.min(count / 8 + 1)) {
-            let divided = |leaf| Divided::new(leaf, &self.primitives, sum, watch);
-            for divided in parallel_map::map(leaves.iter().collect(), divided)? {
+        let numbered: Vec<(usize, &Leaf)> = self.leaves.iter().enumerate().collect();
+        let divided = |(i, leaf)| {
+            let divided = Divided::new(leaf, &self.primitives, sum, watch)?;
+            finish_item(watch, i, numbered.len());
+            Ok(divided)
+        };
+        for leaves in numbered.chunks(TILES_AT_ONCE) {
+            for divided in parallel_map::map(leaves.to_vec(), divided)? {
+                watch.work(divided.cells.len() * CUT)?;
                 see(&divided)?;
-                finish_item(watch, done, count);
-                done += 1;
             }
         }
         Ok(())
