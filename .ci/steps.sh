@@ -304,3 +304,16 @@ is_settled() {
     # shellcheck disable=SC2046
     git diff --quiet "$commit" -- $(paths "$1") && [ -z "$(git ls-files --others --exclude-standard -- $(paths "$1"))" ]
 }
+
+# record PART: notes in .ci/passed that a part passed on this commit.
+record() {
+    local other
+    if [ -n "$(git status --porcelain -- . ':!.ci/passed')" ]; then
+        echo "$1 is not noted in .ci/passed: there are changes that are not committed"
+        return
+    fi
+    other=$(grep -v "^$1 " .ci/passed 2>/dev/null || printf '%s\n' \
+        "# The last commit on which each part of .ci/nightly passed. The scripts in this folder write this file and read it.")
+    { grep '^#' <<<"$other"; { grep -v '^#' <<<"$other"; echo "$1 $(git rev-parse HEAD)"; } | sed '/^$/d' | sort; } \
+        >"$logs/passed" && cp "$logs/passed" .ci/passed
+}
