@@ -158,9 +158,9 @@ impl Default for BuildOptions {
 /// which here are perpendicular to an axis and go through a corner of a polygon.
 ///
 /// The plane of a small polygon is less certain than the plane of a large polygon, because corners are
-/// rounded. Suppose that the plane of one polygon would cut a larger polygon, although the two polygons are
-/// coplanar within the [tolerance](crate::Tolerance). Then every heuristic uses the plane of the larger
-/// polygon instead. Free planes may cut both polygons.
+/// rounded. Suppose that the chosen plane would separate two polygons that overlap and are coplanar within the
+/// [tolerance](crate::Tolerance), or cut the larger of them. Then every heuristic uses the plane of the larger
+/// polygon instead. Planes that cross both polygons may cut both.
 ///
 /// Your own heuristic has priority: [`BuildOptions::with_chooser`].
 ///

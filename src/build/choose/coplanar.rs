@@ -81,14 +81,18 @@ pub(super) fn larger(
     tried: &[u32],
     watch: &Watch<'_>,
 ) -> Result<Option<u32>, Error> {
-    let faces = set.faces;
-    let around = Around::of(set, on);
+    let (faces, tolerance) = (set.faces, set.faces.tolerance());
+    let on = SortedPieces::of(set, on);
+    let own = on
+        .pieces
+        .iter()
+        .find(|&&piece| plane.id() == PlaneId::face(set.pieces[piece as usize].face));
     let normal = plane.normal();
-    let (mut best, mut at) = (None, 0);
+    let mut best = None;
     for &beside in near {
         let other = &set.pieces[beside as usize];
         let is_cut = is_cut(beside);
-        if !is_cut && !around.touches(other, faces.tolerance()) {
+        if !is_cut && !on.around.touches(other, tolerance) {
             continue;
         }
         let rounded = RoundedNormal::through(faces.triangle(other.face));
@@ -97,15 +101,17 @@ pub(super) fn larger(
         if sine > STEEP * STEEP * normal.length_squared() * other_normal.length_squared() {
             continue;
         }
-        watch.work(on.len())?;
-        // Pieces of a large floor are met from the last place where one was found: neighbours in the set are
-        // often neighbours in space.
-        for k in (at..on.len()).chain(0..at) {
-            let piece = &set.pieces[on[k] as usize];
+        let touching = on.touching(set, other, tolerance);
+        watch.work(touching.len())?;
+        let touching = touching
+            .iter()
+            .filter(|&&piece| Bounds::of(&set.pieces[piece as usize]).touches(other, tolerance));
+        // The set's own plane cuts no coplanar piece, wherever that is.
+        for &piece in touching.chain(own.filter(|_| is_cut)) {
+            let piece = &set.pieces[piece as usize];
             let is_larger = faces.is_larger(other.face, piece.face);
             // A piece that is on the plane of the set's own face was classified so.
-            let is_known = !is_larger && plane.id() == PlaneId::face(piece.face);
-            if is_known || !is_cut && !touch(piece, other, faces.tolerance()) {
+            if !is_larger && plane.id() == PlaneId::face(piece.face) {
                 continue;
             }
             let [large, small] = if is_larger { [other, piece] } else { [piece, other] };
@@ -116,7 +122,7 @@ pub(super) fn larger(
                 continue;
             }
             if is_cut || overlap(set, large, small) {
-                (best, at) = (Some(large.face), k);
+                best = Some(large.face);
             }
         }
     }
@@ -147,26 +153,28 @@ fn largest_around(set: &Set<'_>, face: u32, division: &Division) -> Option<u32> 
 /// wider pieces lose input order. Too large: neighbours in a mesh are examined in vain.
 const STEEP: f64 = 0.1;
 
-/// The box around some pieces.
-struct Around {
+/// A box.
+#[derive(Clone, Copy)]
+struct Bounds {
     min: [f64; 3],
     max: [f64; 3],
 }
 
-impl Around {
-    fn of(set: &Set<'_>, pieces: &[u32]) -> Self {
-        let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for &piece in pieces {
-            let piece = &set.pieces[piece as usize];
-            for axis in 0..3 {
-                // Not `min` and `max`, which take more instructions because of NaN.
-                min[axis] = if piece.min[axis] < min[axis] { piece.min[axis] } else { min[axis] };
-                max[axis] = if piece.max[axis] > max[axis] { piece.max[axis] } else { max[axis] };
-            }
-        }
-        Self { min, max }
+impl Bounds {
+    fn of(piece: &Piece) -> Self {
+        Self { min: piece.min, max: piece.max }
     }
 
+    fn include(&mut self, piece: &Piece) {
+        for axis in 0..3 {
+            // Not `min` and `max`, which take more instructions because of NaN.
+            let (min, max) = (piece.min[axis], piece.max[axis]);
+            self.min[axis] = if min < self.min[axis] { min } else { self.min[axis] };
+            self.max[axis] = if max > self.max[axis] { max } else { self.max[axis] };
+        }
+    }
+
+    /// Whether a piece's box comes within a distance of this box.
     fn touches(&self, piece: &Piece, distance: f64) -> bool {
         (0..3).all(|axis| {
             piece.min[axis] <= self.max[axis] + distance
@@ -175,10 +183,46 @@ impl Around {
     }
 }
 
-/// Whether the boxes of two pieces come within a distance of each other.
-fn touch(a: &Piece, b: &Piece, distance: f64) -> bool {
-    (0..3)
-        .all(|axis| a.min[axis] <= b.max[axis] + distance && b.min[axis] <= a.max[axis] + distance)
+/// Lists of at most this many pieces are not sorted. Too small: time to sort. Too large: time to compare all.
+const FEW: usize = 32;
+
+/// Some pieces, in the order of their least coordinates along an axis if there are many.
+struct SortedPieces {
+    pieces: SmallVec<[u32; FEW]>,
+    around: Bounds,
+    axis: usize,
+    /// The largest size of a piece along the axis; infinite if the pieces are not sorted.
+    widest: f64,
+}
+
+impl SortedPieces {
+    fn of(set: &Set<'_>, pieces: &[u32]) -> Self {
+        let mut around = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
+        pieces.iter().for_each(|&piece| around.include(&set.pieces[piece as usize]));
+        let mut sorted = Self { pieces: pieces.into(), around, axis: 0, widest: f64::INFINITY };
+        if pieces.len() > FEW {
+            let size = |axis: &usize| around.max[*axis] - around.min[*axis];
+            let axis = (0..3).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
+            let at = |piece: u32| &set.pieces[piece as usize];
+            sorted.axis = axis;
+            sorted.pieces.sort_unstable_by(|&a, &b| at(a).min[axis].total_cmp(&at(b).min[axis]));
+            let sizes = pieces.iter().map(|&piece| at(piece).max[axis] - at(piece).min[axis]);
+            sorted.widest = sizes.fold(0.0, f64::max);
+        }
+        sorted
+    }
+
+    /// The pieces whose boxes may come within a distance of a piece.
+    fn touching(&self, set: &Set<'_>, other: &Piece, distance: f64) -> &[u32] {
+        if self.widest == f64::INFINITY {
+            return &self.pieces;
+        }
+        let start = |&piece: &u32| set.pieces[piece as usize].min[self.axis];
+        let (low, high) = (other.min[self.axis] - distance, other.max[self.axis] + distance);
+        let first = self.pieces.partition_point(|piece| start(piece) + self.widest < low);
+        let end = self.pieces.partition_point(|piece| start(piece) <= high);
+        &self.pieces[first..end.max(first)]
+    }
 }
 
 /// If outlines have more pairs of corners, they count as overlapping. Too small: planes give way without

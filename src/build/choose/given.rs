@@ -106,9 +106,8 @@ impl<'a> PieceSet<'a> {
     /// `None` if the plane's piece or axis does not exist, or the plane's coordinate is NaN or infinite.
     ///
     /// The sides are exact, except for the [tolerance](crate::Tolerance), and the builder uses the same
-    /// sides. Exception: if a larger polygon of the set is coplanar with a piece within the tolerance, the
-    /// builder may replace the piece's plane by the larger polygon's plane (see
-    /// [`Heuristic`](crate::Heuristic)). Takes O(n) time for n vertices. For an axis plane, a binary search
+    /// sides. Exception: if the plane would separate coplanar pieces, the builder replaces it by the plane of
+    /// the larger piece (see [`Heuristic`](crate::Heuristic)). Takes O(n) time for n vertices. For an axis plane, a binary search
     /// first finds the nearest corner; the first search along an axis sorts all corners.
     pub fn sides(
         &self,
