@@ -50,7 +50,7 @@ pub(in crate::build) fn settle(
         };
         if let PlaneKind::Face(face) = plane.kind() {
             tried.push(face);
-            if !set.planes.is_empty() {
+            if rules.tuning.frames.is_some() {
                 rules.watch.work(set.pieces.len())?;
                 rival = largest_around(set, face, division).or(rival);
             }
@@ -129,16 +129,25 @@ pub(super) fn larger(
     Ok(best)
 }
 
-/// The largest face of the pieces beside a plane, if the given face is on its plane. In frames, all planes are
-/// known, so it takes little time to use the most certain plane of those that are meant to be one: small cards
-/// of `f32` separate each other elsewhere.
+/// The largest face of the pieces beside a plane, if the given face is on its plane. Frames use the most
+/// certain plane of those that are meant to be one, because small cards of `f32` separate each other elsewhere.
+/// (Planes of frames are known in advance, so it takes little time.)
 fn largest_around(set: &Set<'_>, face: u32, division: &Division) -> Option<u32> {
     let first = set.faces.corners(face)[0];
     let mut best = None;
     for (piece, side) in set.pieces.iter().zip(&division.sides) {
-        if *side != Side::Coplanar
-            && let Some(plane) = set.planes.get(piece.face as usize)
-            && plane.distance(first).abs() <= plane.slack()
+        if *side == Side::Coplanar {
+            continue;
+        }
+        let prepared;
+        let plane = match set.planes.get(piece.face as usize) {
+            Some(known) => known,
+            None => {
+                prepared = set.prepare(PlaneId::face(piece.face));
+                &prepared
+            }
+        };
+        if plane.distance(first).abs() <= plane.slack()
             && set.faces.is_larger(piece.face, best.unwrap_or(face))
             && plane.contains(set.faces, face)
         {
