@@ -30,7 +30,8 @@ struct Decals {
 
 /// Faces of a body around the origin, with a radius of about 1.
 fn body(dice: &mut Dice) -> Vec<Corners> {
-    let turn = DQuat::from_euler(EulerRot::XYZ, dice.share() * TAU, dice.share() * TAU, dice.share());
+    let turn =
+        DQuat::from_euler(EulerRot::XYZ, dice.share() * TAU, dice.share() * TAU, dice.share());
     let mut faces: Vec<Corners> = Vec::new();
     match dice.below(4) {
         0 => faces.push(vec![dvec3(-1.0, -0.8, 0.0), dvec3(1.1, -0.7, 0.0), dvec3(0.2, 0.9, 0.0)]),
@@ -40,8 +41,18 @@ fn body(dice: &mut Dice) -> Vec<Corners> {
                 let [n, u, v] = [0, 1, 2].map(|k| DVec3::AXES[(axis + k) % 3]);
                 let size = dvec3(1.0, 0.7, 0.5);
                 let at = |s: f64, a: f64, b: f64| (n * s + u * a + v * b) * size;
-                faces.push(vec![at(1.0, -1.0, -1.0), at(1.0, 1.0, -1.0), at(1.0, 1.0, 1.0), at(1.0, -1.0, 1.0)]);
-                faces.push(vec![at(-1.0, -1.0, -1.0), at(-1.0, -1.0, 1.0), at(-1.0, 1.0, 1.0), at(-1.0, 1.0, -1.0)]);
+                faces.push(vec![
+                    at(1.0, -1.0, -1.0),
+                    at(1.0, 1.0, -1.0),
+                    at(1.0, 1.0, 1.0),
+                    at(1.0, -1.0, 1.0),
+                ]);
+                faces.push(vec![
+                    at(-1.0, -1.0, -1.0),
+                    at(-1.0, -1.0, 1.0),
+                    at(-1.0, 1.0, 1.0),
+                    at(-1.0, 1.0, -1.0),
+                ]);
             }
         }
         // A cylinder.
@@ -52,14 +63,17 @@ fn body(dice: &mut Dice) -> Vec<Corners> {
                 dvec3(0.6 * cos, 0.6 * sin, z)
             };
             let sides = 0..sides;
-            faces.extend(sides.map(|k| vec![at(k, -0.8), at(k + 1, -0.8), at(k + 1, 0.8), at(k, 0.8)]));
+            faces.extend(
+                sides.map(|k| vec![at(k, -0.8), at(k + 1, -0.8), at(k + 1, 0.8), at(k, 0.8)]),
+            );
         }
         // A ball of triangles, not quite round.
         _ => {
             let (rings, sides) = (3 + dice.below(3), 3 + dice.below(6));
             let radii: Vec<f64> = (0..=rings * sides).map(|_| dice.range(0.95, 1.0)).collect();
             let at = |i: usize, k: usize| {
-                let (up, around) = (TAU * 0.5 * i as f64 / rings as f64, TAU * k as f64 / sides as f64);
+                let (up, around) =
+                    (TAU * 0.5 * i as f64 / rings as f64, TAU * k as f64 / sides as f64);
                 let k = if i == 0 || i == rings { 0 } else { k % sides };
                 let radius = radii[i % rings * sides + k];
                 dvec3(up.sin() * around.cos(), up.sin() * around.sin(), up.cos()) * radius
@@ -78,8 +92,7 @@ fn body(dice: &mut Dice) -> Vec<Corners> {
 
 fn decals(dice: &mut Dice, numbers: Numbers) -> Decals {
     let faces = body(dice);
-    let mut polygons: Vec<(Corners, usize)> =
-        faces.iter().cloned().zip(0..).collect();
+    let mut polygons: Vec<(Corners, usize)> = faces.iter().cloned().zip(0..).collect();
     let most = [3, 20][dice.below(2)];
     for card in 0..1 + dice.below(most) {
         let face = dice.below(faces.len());
@@ -189,9 +202,10 @@ fn judge(name: &str, tree: &BspTree, decals: &Decals, dice: &mut Dice, counts: &
             let mut order = Vec::new();
             for side in [1.0, -1.0] {
                 let away = z * side + aside;
-                for viewpoint in
-                    [Viewpoint::direction((-away).to_array()), Viewpoint::eye((at + 3.0 * away).to_array())]
-                {
+                for viewpoint in [
+                    Viewpoint::direction((-away).to_array()),
+                    Viewpoint::eye((at + 3.0 * away).to_array()),
+                ] {
                     tree.back_to_front_into(viewpoint, &mut order);
                     let rank = |fragment| order.iter().position(|&f| f == fragment).unwrap();
                     counts.compared += 1;
