@@ -66,4 +66,28 @@ mod tests {
         assert!(contains(1, 0) && !contains(0, 1) && faces.is_larger(1, 0));
         assert!(faces.are_coplanar(0, 1) && faces.are_coplanar(1, 0));
     }
+
+    /// Two triangles of equal size across each other. Only the first one's plane is near all corners.
+    #[test]
+    fn of_faces_of_equal_size_the_plane_of_the_earlier_decides() {
+        let flat = [[0.0, 0.0, 0.0], [8192.0, 0.0, 0.0], [0.0, 101.0, 0.0]];
+        let tilted = [[0.0, 0.0, 0.0], [0.0, 8192.0, 0.0], [99.0, 0.0, 20.0]];
+        for (both, expected) in [([flat, tilted], true), ([tilted, flat], false)] {
+            let (faces, _) = Faces::new(both, Some(24.0)).unwrap();
+            assert_eq!(faces.size(0), faces.size(1));
+            assert_eq!([faces.are_coplanar(0, 1), faces.are_coplanar(1, 0)], [expected; 2]);
+        }
+    }
+
+    /// A small triangle over a large one has one corner just below or above the tolerance, each in turn.
+    #[test]
+    fn every_corner_counts_up_to_the_tolerance() {
+        let wall = [[-8192.0, -8192.0, 0.0], [8192.0, -8192.0, 0.0], [0.0, 8192.0, 0.0]];
+        for (turn, height) in (0..3).flat_map(|turn| [(turn, 23.0), (turn, -23.0), (turn, 25.0)]) {
+            let mut card = [[0.0, 0.0, height], [64.0, 0.0, 0.0], [0.0, 64.0, 0.0]];
+            card.rotate_left(turn);
+            let (faces, _) = Faces::new([wall, card], Some(24.0)).unwrap();
+            assert_eq!(faces.are_coplanar(0, 1), height < 24.0, "{turn}, {height}");
+        }
+    }
 }

@@ -172,3 +172,42 @@ fn touching_polygons_do_not_cross() {
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [200, 150]).unwrap();
     assert_eq!(crossings(&tree, &camera), []);
 }
+
+/// A quad that is bent upwards stands on a floor with its bend. The floor is cut by the plane of half of the
+/// quad, and shows through the quad on both sides of the cut.
+#[test]
+fn a_bend_that_touches_a_floor_does_not_cross_it() {
+    let bent = [[-2.0, 0.0, 1.0], [0.0, -1.0, 0.0], [2.0, 0.0, 1.0], [0.0, 1.0, 0.0]];
+    let floor = [[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.0], [-3.0, 3.0, 0.0]];
+    let camera =
+        Camera::parallel(dvec3(0.2, 0.1, -1.0), DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
+    for polygons in [[bent, floor], [floor, bent]] {
+        for (by, tree) in trees(&polygons) {
+            assert_eq!(tree.faces().len(), 3, "the quad is bent");
+            for hidden in [Hidden::Skip, Hidden::Keep, Hidden::Count] {
+                let runs = map_with(&tree, &camera, |_| 0.5).crossings(hidden).unwrap();
+                assert_eq!(runs, [], "{by}, {hidden:?}");
+            }
+        }
+    }
+}
+
+/// The triangles of one polygon that is not planar can pierce each other.
+#[test]
+fn a_polygon_does_not_cross_itself() {
+    let mut cut = 0;
+    for seed in seeds(100) {
+        let mut dice = Dice(seed);
+        let corners = 6 + dice.below(4);
+        let outline: Vec<DVec3> = (0..corners).map(|_| dice.point(-1.0, 1.0)).collect();
+        let camera =
+            Camera::parallel(dvec3(0.3, 0.2, -1.0), DVec3::Y, DVec3::ZERO, 4.0, [80, 80]).unwrap();
+        let Ok(tree) = BspTree::build([&outline]) else { continue };
+        cut += usize::from(tree.len() > tree.faces().len());
+        for hidden in [Hidden::Skip, Hidden::Keep, Hidden::Count] {
+            let runs = map_with(&tree, &camera, |_| 0.5).crossings(hidden).unwrap();
+            assert_eq!(runs, [], "{seed}, {hidden:?}");
+        }
+    }
+    enough!(cut > 50; "{cut}");
+}

@@ -27,6 +27,12 @@ fn boxes(dice: &mut Dice) -> Vec<Vec<DVec3>> {
             triangles.extend(both.map(|triangle| triangle.to_vec()));
         }
     }
+    // In either order of any two triangles, not only one box after the other.
+    if dice.below(2) == 0 {
+        let other = triangles.split_off(triangles.len() / 2);
+        let pairs = other.into_iter().rev().zip(triangles);
+        triangles = pairs.flat_map(|(a, b)| [a, b]).collect();
+    }
     triangles
 }
 

@@ -94,3 +94,33 @@ fn silhouettes_of_quads_that_are_not_planar_are_closed() {
     }
     enough!(runs_in_all > 2_000, inside > 200; "{runs_in_all} {inside}");
 }
+
+/// Two polygons with their fronts on different sides traverse their common edge in one direction. The edge is a
+/// crease where the upper sides of both are seen, and a silhouette where one is seen from below.
+#[test]
+fn a_polygon_with_its_front_on_the_other_side_counts_as_reversed() {
+    let flat = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let ramp = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.5], [2.0, 0.0, 0.5]];
+    let mut turned = ramp;
+    turned.reverse();
+    for other in [ramp, turned] {
+        let tree = BspTree::build([flat, other]).unwrap();
+        for (way, is_crease) in [([0.1, 0.2, -1.0], true), ([-1.0, 0.1, -0.2], false)] {
+            let centre = DVec3::new(1.0, 0.5, 0.0);
+            let camera = Camera::parallel(way.into(), DVec3::Y, centre, 6.0, [80, 80]).unwrap();
+            let edges = map_of(&tree, &camera).edges(Hidden::Keep).unwrap();
+            let is_common = |kind| kind != EdgeKind::Border;
+            let kinds: Vec<_> =
+                edges.iter().map(|run| run.kind).filter(|k| is_common(*k)).collect();
+            assert!(!kinds.is_empty(), "{way:?}");
+            for kind in kinds {
+                match kind {
+                    EdgeKind::Crease(angle) => {
+                        assert!(is_crease && (angle - 0.5f64.atan()).abs() < 1e-9, "{angle}")
+                    }
+                    kind => assert!(!is_crease, "{kind:?}"),
+                }
+            }
+        }
+    }
+}
