@@ -179,15 +179,31 @@ guards() {
     esac
 }
 
+# A change of one of these paths makes .ci/run call the whole part.
 paths() {
     case $1 in
-    long_tests) echo src/exact src/build src/tree src/overlay crates/evidence crates/lab tests/large tests/overlay ;;
-    scenes) echo src/exact src/faces src/build src/tree/order src/raster src/scene crates/testkit/src/real_scenes.rs ;;
-    report) echo src/exact src/raster src/verify crates/evidence ;;
-    browser) echo cli/src/page cli/tests/program/in_browser crates/testkit/src/browser.rs ;;
-    bits_32) echo src/exact src/memory.rs src/save.rs src/tree/saved src/tree/saved.rs src/tree/parts.rs src/tree/order tests/alone ;;
-    mpi) echo distributed src/partition src/save.rs src/tree/saved src/tree/saved.rs ;;
-    gpu) echo gpu src/tree/mesh src/tree/mesh.rs ;;
+    long_tests)
+        echo src/exact src/faces src/build src/tree src/overlay src/raster src/scene crates/evidence crates/lab \
+            tests/large tests/overlay tests/mesh/closed.rs crates/testkit/src/{judge,rays}.rs
+        ;;
+    scenes)
+        echo src/exact src/faces src/build src/tree src/query src/raster src/scene src/verify src/view src/paint.rs \
+            tests/{query,obj}/real_scenes.rs tests/mesh/closed.rs cli/tests/program/real_scenes.rs \
+            cli/src/commands/verify.rs crates/testkit/src/real_scenes.rs
+        ;;
+    report) echo src/exact src/raster src/verify src/scene/generated.rs crates/evidence crates/lab ;;
+    browser)
+        echo cli/src/page cli/src/commands/page.rs cli/src/samples.rs cli/tests/program/in_browser \
+            crates/testkit/src/browser.rs src/exact/eye.rs src/tree/order
+        ;;
+    bits_32)
+        echo src/exact src/bits.rs src/memory.rs src/save.rs src/{tree,scene,partition}/saved* src/tree/parts.rs \
+            src/tree/node.rs src/tree/bounds.rs src/tree/order src/drawing/{lines,quadtree}.rs src/layers tests/alone
+        ;;
+    mpi)
+        echo distributed Cargo.toml src/partition src/save.rs src/tree/saved src/tree/saved.rs src/raster src/scene/obj.rs
+        ;;
+    gpu) echo gpu Cargo.toml src/tree/mesh src/tree/mesh.rs src/tree/order src/raster ;;
     oldest) git ls-files '*Cargo.toml' '*Cargo.lock' ;;
     old_matplotlib) echo python ;;
     esac
@@ -260,7 +276,7 @@ oldest() {
     done
     cargo "+$rust_version" check --workspace --locked
 }
-oldest_cheaply() { cargo "+$rust_version" check -p binspace --all-features --locked; }
+oldest_cheaply() { cargo "+$rust_version" check --locked -p binspace -p binspace-cli -p binspace-lab --lib --all-features; }
 
 # An environment for Python packages, and in it what is named, installed only where it is missing.
 python_environment() {

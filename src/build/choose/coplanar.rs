@@ -44,16 +44,12 @@ pub(in crate::build) fn settle(
             on.extend(sides.filter(|(_, side)| **side == Side::Coplanar).map(|(piece, _)| piece));
         }
         let is_cut = |piece: u32| division.sides[piece as usize] == Side::Spanning;
-        let mut rival = match on.is_empty() {
+        let rival = match on.is_empty() {
             true => None,
             false => larger(set, prepared, [&on, &division.near], is_cut, &tried, rules.watch)?,
         };
         if let PlaneKind::Face(face) = plane.kind() {
             tried.push(face);
-            if rules.tuning.frames.is_some() {
-                rules.watch.work(set.pieces.len())?;
-                rival = largest_around(set, face, division).or(rival);
-            }
         }
         let Some(rival) = rival else { return Ok(()) };
         division.plane = None;
@@ -127,34 +123,6 @@ pub(super) fn larger(
         }
     }
     Ok(best)
-}
-
-/// The largest face of the pieces beside a plane, if the given face is on its plane. Frames use the most
-/// certain plane of those that are meant to be one, because small cards of `f32` separate each other elsewhere.
-/// (Planes of frames are known in advance, so it takes little time.)
-fn largest_around(set: &Set<'_>, face: u32, division: &Division) -> Option<u32> {
-    let first = set.faces.corners(face)[0];
-    let mut best = None;
-    for (piece, side) in set.pieces.iter().zip(&division.sides) {
-        if *side == Side::Coplanar {
-            continue;
-        }
-        let prepared;
-        let plane = match set.planes.get(piece.face as usize) {
-            Some(known) => known,
-            None => {
-                prepared = set.prepare(PlaneId::face(piece.face));
-                &prepared
-            }
-        };
-        if plane.distance(first).abs() <= plane.slack()
-            && set.faces.is_larger(piece.face, best.unwrap_or(face))
-            && plane.contains(set.faces, face)
-        {
-            best = Some(piece.face);
-        }
-    }
-    best
 }
 
 /// The sine of the largest angle between a plane and a face that may be coplanar with a piece on the plane.
