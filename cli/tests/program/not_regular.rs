@@ -19,7 +19,7 @@ fn refused_soon(folder: &Folder, arguments: &str) -> String {
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let (mut child, begin) = (command.spawn().unwrap(), Instant::now());
     while child.try_wait().unwrap().is_none() {
-        if begin.elapsed() > Duration::from_secs(60) {
+        if begin.elapsed() > Duration::from_secs(600) {
             child.kill().unwrap();
             panic!("{arguments}: it waits");
         }

@@ -97,7 +97,7 @@ fn start_writing(folder: &Folder, prefix: &str) -> std::process::Child {
     };
     let start = Instant::now();
     while !fs::read_dir(&opened).unwrap().any(|file| file.is_ok_and(is_of_folder)) {
-        assert!(start.elapsed() < Duration::from_secs(60), "it opens no file");
+        assert!(start.elapsed() < Duration::from_secs(600), "it opens no file");
         std::thread::sleep(Duration::from_millis(5));
     }
     child
