@@ -154,7 +154,6 @@ struct Counts {
     one_sided: usize,
     /// Compared fragments.
     compared: usize,
-    wrong: usize,
 }
 
 fn judge(name: &str, tree: &BspTree, decals: &Decals, dice: &mut Dice, counts: &mut Counts) {
@@ -209,15 +208,13 @@ fn judge(name: &str, tree: &BspTree, decals: &Decals, dice: &mut Dice, counts: &
                     tree.back_to_front_into(viewpoint, &mut order);
                     let rank = |fragment| order.iter().position(|&f| f == fragment).unwrap();
                     counts.compared += 1;
-                    if (rank(a) < rank(b)) != (card < wall) {
-                        counts.wrong += 1;
-                        assert!(
-                            std::env::var_os("DECALS_COUNT").is_some(),
-                            "{name}, {:?}: {card} on {wall} from {viewpoint:?}: {:?}",
-                            decals.numbers,
-                            decals.polygons
-                        );
-                    }
+                    assert_eq!(
+                        rank(a) < rank(b),
+                        card < wall,
+                        "{name}, {:?}: {card} on {wall} from {viewpoint:?}: {:?}",
+                        decals.numbers,
+                        decals.polygons
+                    );
                 }
             }
         }
@@ -236,14 +233,14 @@ fn is_inside(outline: &[DVec2], at: DVec2) -> bool {
 #[test]
 fn a_card_whose_plane_passes_beside_its_face_keeps_its_place() {
     let card = [
-        [0.164580911f32, -0.825624287, -0.507814169],
-        [0.152409658, -0.82543993, -0.505666435],
-        [0.157288924, -0.820353746, -0.514021218],
+        [0.16458091f32, -0.8256243, -0.50781417],
+        [0.15240966, -0.82543993, -0.50566643],
+        [0.15728892, -0.82035375, -0.5140212],
     ];
     let face = [
-        [0.214738548, -0.845463216, -0.488957345],
-        [-0.393824399, -0.836245894, -0.381569356],
-        [-0.149861276, -0.581934273, -0.799308479],
+        [0.21473855, -0.8454632, -0.48895735],
+        [-0.3938244, -0.8362459, -0.38156936],
+        [-0.14986128, -0.5819343, -0.7993085],
     ];
     let eye = Viewpoint::eye([-0.657895, -4.527287, -3.339690]);
     for (name, tree) in trees(&[card, face], BuildOptions::DEFAULT) {
@@ -277,8 +274,6 @@ fn cards_on_bodies_come_in_input_order_at_default_tolerances() {
                 judge(name, tree, &decals, &mut dice, &mut counts);
             }
         }
-        println!("{numbers:?}: {counts:?}");
-        assert_eq!(counts.wrong, 0, "{numbers:?}: {counts:?}");
         assert!(counts.compared > 10_000, "{numbers:?}: {counts:?}");
         let floor = if matches!(numbers, Numbers::Double) { 0 } else { 300 };
         assert!(counts.one_sided >= floor, "{numbers:?}: {counts:?}");
