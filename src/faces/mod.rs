@@ -138,9 +138,17 @@ pub(crate) struct Preparer {
     room: Option<[DVec3; 2]>,
     /// Whether all polygons are flat by definition.
     pub(crate) are_flat: bool,
+    /// Whether appended shapes that are less precise than the scene raise the tolerance, as in overlays. (All
+    /// cells of a scene have one tolerance.)
+    raises_tolerance: bool,
 }
 
 impl Preparer {
+    /// Prepares the shapes of overlays.
+    pub(crate) fn for_overlays() -> Self {
+        Self { raises_tolerance: true, ..Self::default() }
+    }
+
     /// Replaces faces by the faces of other polygons, like [`Faces::new`], with a limit on the number of
     /// polygons. Reports progress to `watch`, which can cancel. After an error, some of the faces may be
     /// present.
@@ -223,9 +231,9 @@ impl Preparer {
         Ok(())
     }
 
-    /// Appends the faces of more polygons to a finished scene, on the scene's lattice. Raises the tolerance if
-    /// the new polygons are less precise. More polygons than `limit` are an error. The polygons are numbered
-    /// from `first` on. After an error, some of the new faces may have been appended.
+    /// Appends the faces of more polygons to a finished scene, on the scene's lattice and with the scene's
+    /// tolerance. More polygons than `limit` are an error. The polygons are numbered from `first` on. After
+    /// an error, some of the new faces may have been appended.
     pub(crate) fn append<P: Polygon>(
         &mut self,
         faces: &mut Faces,
@@ -292,10 +300,10 @@ impl Preparer {
         Ok(())
     }
 
-    /// Raises the tolerance of a scene to the default tolerance of the shapes that were read last: a decal in
-    /// `f32` lies on a wall in `f64`. A tolerance of 0 remains.
+    /// Raises the tolerance of a scene to the default tolerance of the shapes that were read last, if wanted: a
+    /// decal in `f32` lies on a wall in `f64`. A tolerance of 0 remains.
     fn raise_tolerance(&self, faces: &mut Faces) {
-        if faces.tolerance == 0.0 || self.input.len() == 0 {
+        if !self.raises_tolerance || faces.tolerance == 0.0 || self.input.len() == 0 {
             return;
         }
         let bounds = self.input.bounds(None);

@@ -219,7 +219,7 @@ impl Overlay {
         Self {
             faces: tree.faces.without_faces(),
             base: Base::of(tree),
-            preparer: Preparer::default(),
+            preparer: Preparer::for_overlays(),
             placer: Placer::default(),
             pieces: Parts::default(),
             insertions: InsertionTree::new(tree.len()),
