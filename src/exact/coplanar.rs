@@ -10,7 +10,7 @@
 use glam::DVec3;
 
 use super::plane::RoundedNormal;
-use super::{Faces, PlaneId, PreparedPlane, Side};
+use super::{Faces, PreparedPlane, Side};
 
 impl Faces {
     /// Whether one face is larger than another, by the areas of their reference triangles, rounded: the larger
@@ -24,9 +24,10 @@ impl Faces {
     }
 
     /// Whether two faces lie in one plane.
+    #[cfg(any(feature = "drawing", test))]
     pub(crate) fn are_coplanar(&self, one: u32, other: u32) -> bool {
         let [large, small] = if self.is_larger(one, other) { [one, other] } else { [other, one] };
-        PreparedPlane::new(self, PlaneId::face(large)).contains(self, small)
+        PreparedPlane::new(self, super::PlaneId::face(large)).contains(self, small)
     }
 }
 
@@ -42,6 +43,7 @@ impl PreparedPlane {
 
 #[cfg(test)]
 mod tests {
+    use super::super::PlaneId;
     use super::*;
 
     /// A small card on a large wall, both of `f32`: the wall leaves the card's plane by more than the
