@@ -33,6 +33,23 @@ step() {
     [ "$result" = passed ]
 }
 
+# beside NAME COMMAND…: begins a command that another step waits for, beside the steps before that one.
+beside() {
+    local name=$1
+    shift
+    "$@" >"$logs/$name.log" 2>&1 &
+    printf -v "beside_$name" %s $!
+}
+
+# joined NAME: waits for a command of `beside`, and shows what it has written.
+joined() {
+    local pid=beside_$1 status=0
+    wait "${!pid}" || status=$?
+    cat "$logs/$1.log"
+    return "$status"
+}
+trap 'jobs -p | xargs -r kill 2>/dev/null' EXIT
+
 # skip NAME REASON: notes a step that does not run.
 skip() {
     echo "── $1: skipped: $2"
@@ -216,7 +233,7 @@ long_tests() {
 
 # Tests of real scenes, and every pixel of them from some views. The program of `cargo test` is fast enough.
 scenes() {
-    cargo test real_scenes -- --ignored && cargo build -p binspace-cli || return 1
+    cargo test real_scenes -- --ignored || return 1
     verify_scenes "$BINSPACE_SCENES"/*.obj
 }
 scenes_cheaply() { verify_scenes "$BINSPACE_SCENES"/{cornell_box,doom_e1m1,teapot_quads_2k}.obj; }
@@ -239,7 +256,8 @@ verify_scene() {
     echo "$(basename "$1"): ${lines##*$'\n'}"
 }
 
-report() { cargo run -p binspace-lab -- report --quick -o "$logs/report"; }
+# The program that `cargo test` builds: `cargo run` has other features, and compiles the library again.
+report() { cargo test --no-run && "$CARGO_TARGET_DIR/debug/binspace-lab" report --quick -o "$logs/report"; }
 
 browser() { cargo test --test program in_browser -- --ignored; }
 browser_cheaply() { cargo test --test program in_browser::turn -- --ignored; }
@@ -276,7 +294,7 @@ oldest() {
     done
     cargo "+$rust_version" check --workspace --locked
 }
-oldest_cheaply() { cargo "+$rust_version" check --locked -p binspace -p binspace-cli -p binspace-lab --lib --all-features; }
+oldest_cheaply() { cargo "+$rust_version" check --locked -p binspace --all-features; }
 
 # An environment for Python packages, and in it what is named, installed only where it is missing.
 python_environment() {
@@ -286,11 +304,11 @@ python_environment() {
     logged "$folder/bin/pip" install "$@"
 }
 
-# The wheel of the Python package.
+# The wheel of the Python package, without optimization. In a folder of its own it does not wait for other steps.
 python_wheel() {
     rm -rf "$target/python/wheels"
-    "$target/python/new/bin/maturin" build --locked --release --manifest-path python/Cargo.toml \
-        --out "$target/python/wheels"
+    "$target/python/new/bin/maturin" build --locked --manifest-path python/Cargo.toml \
+        --target-dir "$target/python/target" --out "$target/python/wheels"
 }
 
 # python_tests FOLDER: the tests of the wheel in an environment.

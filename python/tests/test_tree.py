@@ -369,10 +369,10 @@ def test_pictures(tmp_path):
 
 
 def test_progress_and_cancel():
-    polygons = random_triangles(3000) * 5
+    polygons = random_triangles(1000) * 5
     calls = []
     tree = binspace.Tree(polygons, progress=lambda done, total: calls.append((done, total)))
-    assert calls[-1][0] == calls[-1][1] >= 3000 and [done for done, _ in calls] == sorted(done for done, _ in calls)
+    assert calls[-1][0] == calls[-1][1] >= 1000 and [done for done, _ in calls] == sorted(done for done, _ in calls)
 
     def stop(done, total):
         raise InterruptedError("enough")
@@ -395,8 +395,8 @@ import numpy as np, binspace
 # Programs in the background of a shell ignore SIGINT.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 random = np.random.default_rng(1)
-polygons = random.uniform(-1, 1, (3000, 3, 3))
-few = binspace.Tree(polygons[:500])
+polygons = random.uniform(-1, 1, (2000, 3, 3))
+few = binspace.Tree(polygons[:100])
 # Arrays of one point, repeated without memory. All these rays would take hours.
 eye, far = (np.broadcast_to(np.array(point), (1 << 31, 3)) for point in ((0.01, 0.02, -2.0), (0.02, 0.01, 2.0)))
 print("begins", flush=True)
@@ -420,7 +420,7 @@ def test_ctrl_c_ends_long_calls(call):
 
 
 def test_other_threads_run_while_a_tree_is_built():
-    polygons = random_triangles(1000) * 5
+    polygons = random_triangles(400) * 5
     counts = itertools.count()
     done = threading.Event()
 
@@ -463,7 +463,7 @@ def test_one_map_in_several_threads():
 
 FORKS = """
 import os, sys, numpy as np, binspace
-polygons = np.random.default_rng(1).uniform(-1, 1, (200, 3, 3)) * [[[0.2, 1, 1]]]
+polygons = np.random.default_rng(1).uniform(-1, 1, (60, 3, 3)) * [[[0.2, 1, 1]]]
 expected = binspace.Tree(polygons).fragments.points
 child = os.fork()
 same = np.array_equal(binspace.Tree(polygons).fragments.points, expected)
