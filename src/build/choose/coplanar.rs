@@ -22,8 +22,8 @@ const MOST_PLANES: usize = 8;
 /// Coplanar polygons come in input order, so they have to lie in one node. But the plane of a small polygon,
 /// extended across a large polygon in the same plane, can deviate from it by more than the tolerance, on one
 /// side or on both. [`Faces::are_coplanar`](crate::exact::Faces::are_coplanar) decides what is coplanar. A
-/// piece can be coplanar with several that are not coplanar with each other: if every plane separates some of
-/// them, the largest is used.
+/// piece can be coplanar with several that are not coplanar with each other: then every plane separates some
+/// of them, and the last one is used.
 pub(in crate::build) fn settle(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
@@ -52,18 +52,12 @@ pub(in crate::build) fn settle(
             tried.push(face);
         }
         let Some(rival) = rival else { return Ok(()) };
+        if tried.len() == MOST_PLANES {
+            return Ok(());
+        }
         division.plane = None;
         plane = PlaneId::face(rival);
-        if tried.len() == MOST_PLANES || tried.contains(&rival) {
-            break;
-        }
     }
-    let largest = tried
-        .iter()
-        .copied()
-        .reduce(|best, face| if set.faces.is_larger(face, best) { face } else { best });
-    set.divide(largest.map_or(plane, PlaneId::face), usize::MAX, division);
-    Ok(())
 }
 
 /// The largest face of a pair of coplanar pieces that a plane separates: a piece `on` the plane, and a piece
