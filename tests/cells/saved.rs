@@ -92,7 +92,7 @@ fn forged_trees_of_cells_can_be_used() {
     let (mut dice, mut read) = (Dice(1), [0; 2]);
     for cell in &scene.cells {
         let file = bytes(&cell.tree);
-        for _ in 0..500 {
+        for _ in 0..times(200) {
             let mut forged = file.clone();
             let at = 16 + dice.below(file.len() - 20);
             forged[at] = if dice.below(2) == 0 { dice.below(256) as u8 } else { forged[at] ^ 1 };
@@ -100,5 +100,5 @@ fn forged_trees_of_cells_can_be_used() {
             read[usize::from(targets::saved::try_file(&forged))] += 1;
         }
     }
-    enough!(read[0] > 300, read[1] > 50; "{read:?}");
+    enough!(read[0] > 120, read[1] > 20; "{read:?}");
 }

@@ -12,11 +12,11 @@ fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
     rectangle([x - half, y - half], [x + half, y + half], z)
 }
 
-/// A hundred thousand squares behind a wall of ten squares. With an effort of ten, a million squares, which
-/// take some 20 seconds.
+/// Forty thousand squares behind a wall of ten squares. With an effort of 25, a million squares, which take
+/// some 20 seconds.
 #[test]
 fn ten_of_a_million_polygons_show() {
-    let layers = times(10).min(100) as u32;
+    let layers = times(4).min(100) as u32;
     let mut polygons: Vec<Vec<DVec3>> = Vec::new();
     for k in 0..10 {
         let [x, y] = [f64::from(k % 5) - 2.0, f64::from(k / 5) - 0.5];

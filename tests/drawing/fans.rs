@@ -34,7 +34,7 @@ fn most_cells(polygons: &[Vec<DVec3>], height: f64) -> f64 {
 #[test]
 fn cells_of_fans_and_cones_grow_with_their_triangles() {
     for height in [0.0, 1.5, -1.5] {
-        for count in [100, 500, 2_000, 8_000] {
+        for count in [100, 600, 3_000] {
             let most = most_cells(&fan(count, height), height);
             assert!(most < 10.0, "{count} triangles, {height} high: {most} cells each");
         }
@@ -44,7 +44,7 @@ fn cells_of_fans_and_cones_grow_with_their_triangles() {
 /// A globe. Each pole is a vertex of one triangle per slice.
 #[test]
 fn cells_of_poles_grow_with_their_triangles() {
-    for slices in [100, 400, 2_000] {
+    for slices in [100, 300, 1_000] {
         let at = |slice: usize, ring: usize| {
             let angle = std::f64::consts::TAU * (slice % slices) as f64 / slices as f64;
             let (width, height) = [(0.0, 1.0), (0.6, 0.8), (0.6, -0.8), (0.0, -1.0)][ring];

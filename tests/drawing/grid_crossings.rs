@@ -121,7 +121,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
 #[test]
 fn crossings_of_polygons_on_a_grid_agree_with_rationals() {
     let (mut dice, mut score) = (Dice(23), Score::default());
-    for round in 0..times(100) {
+    for round in 0..times(50) {
         let polygons = polygons(&mut dice, 2 + round % 5);
         let options = match round % 3 {
             0 => BuildOptions::DEFAULT,
@@ -140,6 +140,7 @@ fn crossings_of_polygons_on_a_grid_agree_with_rationals() {
             }
         }
     }
-    enough!(score.visible > 700, score.hidden > 350, score.touched > 700; "{score:?}");
-    assert!(score.runs > 400 && score.unsure * 10 < score.visible + score.hidden, "{score:?}");
+    enough!(score.visible > 350, score.hidden > 175, score.touched > 350; "{score:?}");
+    enough!(score.runs > 200; "{score:?}");
+    assert!(score.unsure * 10 < score.visible + score.hidden, "{score:?}");
 }

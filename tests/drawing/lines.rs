@@ -205,12 +205,12 @@ fn rays_agree_with_runs() {
     for (polygons, up) in &scenes {
         let tree = BspTree::build(polygons).unwrap();
         let bounds = bounds(polygons).unwrap();
-        for camera in views(bounds, *up, 4, [320, 240], 7).unwrap() {
+        for camera in views(bounds, *up, 2, [320, 240], 7).unwrap() {
             assert!(matches!(camera.viewpoint(), Viewpoint::Eye(_)));
             check_runs(&tree, polygons, &camera, (&mut dice, times(20)), &mut score);
         }
     }
-    assert!(score.visible + score.hidden > 100_000, "{score:?}");
-    enough!(score.visible > 25_000, score.hidden > 25_000; "{score:?}");
+    enough!(score.visible > 12_500, score.hidden > 12_500; "{score:?}");
+    enough!(score.visible + score.hidden > 50_000; "{score:?}");
     assert!(score.unsure * 10 < score.visible + score.hidden, "{score:?}");
 }

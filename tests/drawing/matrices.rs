@@ -73,7 +73,7 @@ fn skew(dice: &mut Dice, is_parallel: bool) -> DMat4 {
 fn pictures_of_any_matrix_are_right() {
     let mut dice = Dice(61);
     let (mut compared, mut covered, mut score) = (0, 0, Score::default());
-    for round in 0..times(40) {
+    for round in 0..times(20) {
         let triangles = triangles(&mut dice, 40, [-1.0, 1.0], 1.2);
         let tree = BspTree::build(&triangles).unwrap();
         // Every second eye is among the triangles.
@@ -111,5 +111,5 @@ fn pictures_of_any_matrix_are_right() {
         assert!(verdict.is_right(), "{camera:?}");
         check(&tree, &camera, &mut score).unwrap_or_else(|fault| panic!("{camera:?}: {fault}"));
     }
-    enough!(compared > 200_000, covered > 80_000, score.pixels > 300_000; "{compared} {covered} {score:?}");
+    enough!(compared > 100_000, covered > 40_000, score.pixels > 150_000; "{compared} {covered} {score:?}");
 }

@@ -22,7 +22,7 @@ pub(crate) fn cameras(scene: &Scene, count: usize, size: [u32; 2]) -> Vec<Camera
 
 fn check_scene(scene: &Scene, score: &mut Score) {
     let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();
-    for camera in cameras(scene, 4, SIZE) {
+    for camera in cameras(scene, 2, SIZE) {
         let checked = check(&tree, &camera, score);
         checked
             .and_then(|()| check_rays(&tree, &camera, score))
@@ -37,9 +37,9 @@ fn drawings_of_whole_scenes_agree_with_rays() {
         let size = builtin.default_size().map(|size| size.min(400));
         check_scene(&builtin.build(size, 3), &mut score);
     }
-    enough!(score.pixels > 5_000_000, score.pictures > 50; "{score:?}");
+    enough!(score.pixels > 3_500_000, score.pictures > 35; "{score:?}");
     assert!(score.unsure < score.pixels / 100, "{score:?}");
-    enough!(score.clipped > 100, score.rays > 2000; "{score:?}");
+    enough!(score.clipped > 70, score.rays > 1400; "{score:?}");
 }
 
 /// More and more polygons per pixel, so that tiles are halved down to a few pixels and less.
@@ -51,7 +51,7 @@ fn many_small_triangles() {
         let triangles = triangles(&mut dice, count, [0.0, 1.0], edge);
         check_scene(&scene_of(format!("{count} triangles"), triangles), &mut score);
     }
-    enough!(score.pixels > 1_000_000, score.clipped > 500; "{score:?}");
+    enough!(score.pixels > 700_000, score.clipped > 350; "{score:?}");
 }
 
 /// In height fields and convex bodies, no polygon is in a cycle.

@@ -71,7 +71,7 @@ fn silhouettes_of_quads_that_are_not_planar_are_closed() {
     let (mut runs_in_all, mut inside) = (0, 0);
     for quads in [torus(24, 12), torus(60, 30)] {
         let tree = BspTree::build(&quads).unwrap();
-        for _ in 0..12 {
+        for _ in 0..6 {
             let eye = dice.point(-1.0, 1.0).normalize() * 30.0;
             let up = DVec3::new(0.1, 0.2, 1.0);
             let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
@@ -92,7 +92,7 @@ fn silhouettes_of_quads_that_are_not_planar_are_closed() {
             (runs_in_all, inside) = (runs_in_all + outline.len(), inside + count(&runs));
         }
     }
-    enough!(runs_in_all > 2_000, inside > 200; "{runs_in_all} {inside}");
+    enough!(runs_in_all > 1_000, inside > 100; "{runs_in_all} {inside}");
 }
 
 /// Two polygons with their fronts on different sides traverse their common edge in one direction. The edge is a

@@ -23,7 +23,7 @@ struct Scores {
 
 fn check_scene(scene: &Scene, Scores { all, mixed }: &mut Scores) {
     let tree = BspTree::build(scene.polygons()).unwrap();
-    for (i, camera) in cameras(scene, 4, [96, 72]).into_iter().enumerate() {
+    for (i, camera) in cameras(scene, 1, [96, 72]).into_iter().enumerate() {
         check_layers(&tree, &camera, all)
             .and_then(|()| check_mixed(&tree, &camera, &MIXES[i % 3], mixed))
             .and_then(|()| check_sight(&tree, &camera, &MIXES[i % 3], mixed))
@@ -40,10 +40,10 @@ fn layers_of_whole_scenes_agree_with_the_tree() {
         check_scene(&builtin.build(size, 3), &mut scores);
     }
     let Scores { all, mixed } = scores;
-    enough!(all.pixels > 400_000, all.layers > 500_000; "{all:?}");
-    enough!(mixed.pixels > 400_000, mixed.layers > 300_000; "{mixed:?}");
-    enough!(mixed.hidden > 6_000, mixed.rays > 10_000, mixed.small > 3_000; "{mixed:?}");
-    enough!(mixed.regions > 30_000; "{mixed:?}");
+    enough!(all.pixels > 200_000, all.layers > 250_000; "{all:?}");
+    enough!(mixed.pixels > 200_000, mixed.layers > 120_000; "{mixed:?}");
+    enough!(mixed.hidden > 3_000, mixed.rays > 5_000, mixed.small > 1_500; "{mixed:?}");
+    enough!(mixed.regions > 15_000; "{mixed:?}");
     assert!(
         [all, mixed].iter().all(|score| score.unsure < score.pixels / 100),
         "{all:?} {mixed:?}"
@@ -63,8 +63,8 @@ fn layers_of_crossing_triangles_agree_with_the_tree() {
         check_scene(&scene_of(format!("{count} triangles"), triangles), &mut scores);
     }
     let Scores { all, mixed } = scores;
-    assert!(all.layers > 200_000 && all.paths > 3 * all.polygons, "{all:?}");
-    assert!(mixed.clipped > 50 && mixed.paths > mixed.polygons, "{mixed:?}");
+    assert!(all.layers > 100_000 && all.paths > 3 * all.polygons, "{all:?}");
+    assert!(mixed.clipped > 25 && mixed.paths > mixed.polygons, "{mixed:?}");
 }
 
 /// Two panes that cross: the crossing is reported once, for any opacities.

@@ -8,16 +8,16 @@ use testkit::prelude::*;
 
 #[test]
 fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
-    let trial = Trial { heuristics: Heuristic::ALL, views: times(5), rays: 8, most: 100 };
+    let trial = Trial { heuristics: Heuristic::ALL, views: times(3), rays: 8, most: 100 };
     let scores = trial.hold_all(KINDS, 1, |kind, dice| all_scenes::scene(kind, dice, 500));
     for (name, score) in &scores {
-        enough!(score.trees >= 6, score.pairs > 20; "{name}: {score:?}");
+        enough!(score.trees >= 6, score.pairs > 12; "{name}: {score:?}");
     }
     let all = Score::total(&scores);
     assert!(all.trees + all.given_up == KINDS * Heuristic::ALL.len(), "{all:?}");
     assert!(all.given_up <= 20, "{all:?}");
-    enough!(all.rays > 7_000, all.pairs > 300_000; "{all:?}");
-    enough!(all.coplanar > 4_500, all.borders > 7_000; "{all:?}");
+    enough!(all.rays > 4_200, all.pairs > 180_000; "{all:?}");
+    enough!(all.coplanar > 2_700, all.borders > 4_200; "{all:?}");
     assert!(all.grazing < all.pairs / 20 && all.excused == 0, "{all:?}");
 }
 

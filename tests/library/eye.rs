@@ -43,7 +43,7 @@ fn eye_offsets() -> impl Strategy<Value = (prop::sample::Index, [f64; 3], f64)> 
 }
 
 proptest! {
-    #![proptest_config(cases(1500, file!()))]
+    #![proptest_config(cases(700, file!()))]
 
     #[test]
     fn eyes_are_on_the_side_that_rationals_say(

@@ -164,7 +164,7 @@ fn faces_keep_the_outline_of_every_bent_polygon() {
     let mut dice = Dice(44);
     let mut counts = [[0; 2]; 6];
     let mut crossing = 0;
-    for round in 0..times(3000) {
+    for round in 0..times(1500) {
         let kind = round % 6;
         let polygon = outline(kind, &mut dice);
         let is_planar = is_planar(&polygon);
@@ -179,9 +179,9 @@ fn faces_keep_the_outline_of_every_bent_polygon() {
         assert_kept(&faces, &polygon);
         counts[kind][usize::from(is_planar)] += 1;
     }
-    enough!(counts.iter().all(|&[bent, _]| bent > 200); "{counts:?}");
-    enough!(counts[0][1] > 5; "{counts:?}");
-    assert!(crossing < times(3000) / 10, "{crossing}");
+    enough!(counts.iter().all(|&[bent, _]| bent > 100); "{counts:?}");
+    enough!(counts[0][1] > 2; "{counts:?}");
+    assert!(crossing < times(1500) / 10, "{crossing}");
 }
 
 /// A loop in a large bent outline changes only its neighbourhood: few triangles face down.
@@ -189,7 +189,7 @@ fn faces_keep_the_outline_of_every_bent_polygon() {
 fn a_loop_in_a_bent_outline_is_cut_off() {
     let count = 400;
     let mut dice = Dice(45);
-    for _ in 0..times(20) {
+    for _ in 0..times(10) {
         let mut all: Corners = (0..count)
             .map(|k| {
                 let turn = f64::from(k) / f64::from(count) * std::f64::consts::TAU;

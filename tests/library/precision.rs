@@ -53,8 +53,8 @@ fn cards_in_one_plane_out_of_a_matrix_of_f32_stay_whole_and_in_input_order() {
 #[test]
 fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     for size in [0.4, 0.1, 0.01] {
-        let compared: usize = (0..3000).map(|number| pairs_in_order(number, size)).sum();
-        enough!(compared > 1000; "{compared} of size {size}");
+        let compared: usize = (0..1200).map(|number| pairs_in_order(number, size)).sum();
+        enough!(compared > 400; "{compared} of size {size}");
     }
 }
 

@@ -5,7 +5,7 @@ use testkit::prelude::*;
 
 #[test]
 fn a_false_length_allocates_little_memory() {
-    let tree = BspTree::build(scene::city(2000, 1).polygons()).unwrap();
+    let tree = BspTree::build(scene::city(60, 1).polygons()).unwrap();
     let mut file = Vec::new();
     tree.write(&mut file).unwrap();
     counted(|| read_forged(&file));
@@ -14,8 +14,7 @@ fn a_false_length_allocates_little_memory() {
 fn read_forged(file: &[u8]) {
     let mut refused = 0;
     // Most of these places are not lengths, but all lengths are among them.
-    let places = (16..2000).chain(file.len() - 2000..file.len() - 12).step_by(4);
-    for at in places.chain((2000..file.len() - 2000).step_by(3372)) {
+    for at in (16..file.len() - 12).step_by(4) {
         for length in [(1_u64 << 27) - 1, (1 << 28) - 1, 1 << 50, u64::MAX] {
             let mut forged = file.to_vec();
             forged[at..at + 8].copy_from_slice(&length.to_le_bytes());
@@ -47,7 +46,7 @@ fn obj_faces_of_many_corners_take_memory_in_proportion() {
     ] {
         let first = if before.starts_with('v') { "" } else { first };
         counted(|| {
-            let file = [first, before, &unit.repeat(1_000_000 / unit.len()), "\n"].concat();
+            let file = [first, before, &unit.repeat(200_000 / unit.len()), "\n"].concat();
             let read = binspace::scene::Scene::from_obj("memory", file.as_bytes(), |_| None);
             // Besides the file itself.
             let (bytes, len) = (most_bytes() - file.capacity(), file.len());

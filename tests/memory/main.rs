@@ -16,7 +16,7 @@ static COUNTING: dhat::Alloc = dhat::Alloc;
 fn counted(work: impl FnOnce()) {
     static ALONE: Mutex<()> = Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let _profiler = Profiler::builder().testing().build();
+    let _profiler = Profiler::builder().testing().trim_backtraces(Some(4)).build();
     work();
 }
 

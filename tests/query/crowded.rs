@@ -18,7 +18,7 @@ fn nested(n: usize) -> impl Iterator<Item = [[f64; 3]; 4]> {
 
 #[test]
 fn squares_in_one_plane_are_hit_in_input_order_from_both_sides() {
-    let n = 200_000;
+    let n = 60_000;
     let tree = BspTree::build(nested(n)).unwrap();
     for z in [-5.0, 5.0] {
         let ray = Ray::new([0.1, 0.2, z], [0.0, 0.0, -z]);

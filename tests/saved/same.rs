@@ -39,7 +39,7 @@ const EYES: [Viewpoint; 3] = [
 ];
 
 proptest! {
-    #![proptest_config(cases(600, file!()))]
+    #![proptest_config(cases(250, file!()))]
 
     #[test]
     fn trees_of_hard_scenes_come_back(

@@ -253,7 +253,7 @@ fn a_card_whose_plane_passes_beside_its_face_keeps_its_place() {
 fn cards_on_bodies_come_in_input_order_at_default_tolerances() {
     for numbers in [Numbers::Single, Numbers::Decimal(4), Numbers::Double] {
         let mut counts = Counts::default();
-        for seed in seeds(60) {
+        for seed in seeds(25) {
             let mut dice = Dice(seed);
             let decals = decals(&mut dice, numbers);
             let default = BuildOptions::DEFAULT;
@@ -274,8 +274,8 @@ fn cards_on_bodies_come_in_input_order_at_default_tolerances() {
                 judge(name, tree, &decals, &mut dice, &mut counts);
             }
         }
-        assert!(counts.compared > 10_000, "{numbers:?}: {counts:?}");
-        let floor = if matches!(numbers, Numbers::Double) { 0 } else { 300 };
+        assert!(counts.compared > 4_000, "{numbers:?}: {counts:?}");
+        let floor = if matches!(numbers, Numbers::Double) { 0 } else { 120 };
         assert!(counts.one_sided >= floor, "{numbers:?}: {counts:?}");
     }
 }

@@ -177,10 +177,10 @@ fn error(scene: &Scene, options: BuildOptions) -> Error {
 
 #[test]
 fn budgets_end_in_errors_that_say_the_limit() {
-    let crowd = scene::random_triangles(3000, 5);
+    let crowd = scene::random_triangles(2200, 5);
     for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-        for limit in [0, 1, 2999, 3500] {
+        for limit in [0, 1, 2199, 2500] {
             let error = error(&crowd, options.clone().with_max_fragments(limit));
             assert!(
                 error.kind() == ErrorKind::OverBudget

@@ -193,7 +193,7 @@ fn a_tree_that_memory_does_not_hold_ends_the_program_as_an_error_does() {
         "stats random:6000",
         "verify random:6000",
     ] {
-        let (status, message) = run_within(40_000, &folder, command);
+        let (status, message) = run_within(30_000, &folder, command);
         assert_eq!(status, Some(2), "{command}: {message}");
         assert!(message.contains("memory"), "{command}: {message}");
     }

@@ -20,7 +20,7 @@ fn lines_in_pictures_are_those_that_viewers_show() {
             let command = format!("{} --lines --edges all {options}", view.arguments());
             let found = picture(&folder, &command);
             folder.run(&format!("draw {command} -o a.svg")).good();
-            let expected = Svg::read(&folder.path("a.svg")).averaged(8);
+            let expected = Svg::read(&folder.path("a.svg")).averaged(6);
             for (a, b) in found.rgb.iter().step_by(3).zip(&expected) {
                 let difference = (f64::from(*a) - b).abs();
                 if *a < 255 || *b < 255.0 {

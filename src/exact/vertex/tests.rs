@@ -75,7 +75,7 @@ fn a_bit_below_a_tie_decides_where_a_number_is_rounded_to() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, max_global_rejects: 200_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 500, max_global_rejects: 200_000, ..ProptestConfig::default() })]
 
     #[test]
     fn leading_bits_are_those_of_the_number(plane in triangle(), points in triangle()) {

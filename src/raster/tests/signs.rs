@@ -11,7 +11,7 @@ use crate::raster::{Outline, Rays, zbuffer};
 use crate::view::Camera;
 
 const PIXELS: [u32; 2] = [12, 6];
-const ROUNDS: u64 = 60;
+const ROUNDS: u64 = 40;
 
 /// Triangles and quads: in general position, on a coarse grid, planar only within the tolerance, or
 /// slivers; prepared with a suitable tolerance.
@@ -86,7 +86,7 @@ fn a_face_covers_the_pixels_whose_rays_meet_it() {
             }
         }
     });
-    assert!(met > 5000, "only {met} pixels covered");
+    assert!(met > 3300, "only {met} pixels covered");
 }
 
 #[test]
@@ -137,5 +137,5 @@ fn the_depth_buffer_is_brute_force_ray_casting() {
             shown += usize::from(face.is_some());
         }
     });
-    assert!(shown > 2000, "only {shown} pixels covered");
+    assert!(shown > 1300, "only {shown} pixels covered");
 }

@@ -8,7 +8,7 @@ use crate::panes::{panes, world_polygons};
 use crate::plain::PlainView;
 use binspace::raster::NONE;
 
-const SIZE: [u32; 2] = [120, 90];
+const SIZE: [u32; 2] = [84, 63];
 
 fn pixels() -> impl Iterator<Item = [u32; 2]> {
     (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y]))
@@ -70,7 +70,7 @@ fn patches_are_where_exact_rays_meet_them() {
                 Cast::Doubtful => doubtful += 1,
             }
         }
-        assert!(met > 1000 && missed > 1000 && doubtful * 5 < met, "{met} {missed} {doubtful}");
+        assert!(met > 500 && missed > 500 && doubtful * 5 < met, "{met} {missed} {doubtful}");
     }
 }
 
@@ -164,5 +164,5 @@ fn all_surfaces_share_a_depth_buffer() {
             counts[shown as usize - 8] += 1;
         }
     }
-    assert!(counts.iter().all(|&count| count > 300) && judged > 9000, "{counts:?} {judged}");
+    assert!(counts.iter().all(|&count| count > 150) && judged > 4400, "{counts:?} {judged}");
 }

@@ -69,7 +69,7 @@ fn the_exact_rows_are_zero_and_others_are_not() {
 fn a_seed_gives_the_same_errors_again() {
     let folder = Folder::new("report_seed");
     let errors = |seed: u32, name: &str| {
-        let run = format!("report --quick --size 32x24 --family offset --seed {seed} -o {name}");
+        let run = format!("report --quick --size 16x12 --family offset --seed {seed} -o {name}");
         folder.run(&run).good();
         fs::read_to_string(folder.path(&format!("{name}/errors.csv"))).unwrap()
     };

@@ -90,7 +90,7 @@ fn each_rule_decides_what_it_says() {
 
 #[test]
 fn sections_make_the_same_picture_for_any_number_of_rows_and_threads() {
-    let polygons = polygons_of(&scene::random_triangles(90, 8));
+    let polygons = polygons_of(&scene::random_triangles(40, 8));
     let faces = faces(&polygons, Some(0.0));
     for camera in cameras(&polygons, [64, 50], 2) {
         let rays = Rays::new(&camera, &faces).unwrap();
