@@ -200,7 +200,7 @@ fn layers_nearly_in_one_plane_come_in_the_order_of_the_list_and_others_by_depth(
         for is_clipped in [false, true] {
             let (mut dice, mut tally) = (Dice(101), Tally::default());
             // If the grid set no least tolerance, some unclipped page in `f64` would fail.
-            let pages = if is_single || is_clipped { 150 } else { 600 };
+            let pages = if is_single || is_clipped { 200 } else { 600 };
             let mut exchanged = 0;
             for _ in 0..times(pages) {
                 let (given, before) = (cards(&mut dice, is_single), tally.exchanged);
@@ -210,7 +210,7 @@ fn layers_nearly_in_one_plane_come_in_the_order_of_the_list_and_others_by_depth(
             assert!(exchanged <= times(pages) / 1000, "{exchanged} pages");
             let Tally { in_list_order, by_depth, beside_a_third, .. } = tally;
             assert!(beside_a_third < in_list_order + by_depth, "too many are excused: {tally:?}");
-            enough!(in_list_order > 20, by_depth > 20; "{is_single} {is_clipped} {tally:?}");
+            enough!(in_list_order > 40, by_depth > 40; "{is_single} {is_clipped} {tally:?}");
         }
     }
 }

@@ -51,7 +51,7 @@ fn views_in_line_with_many_planes_are_no_worse() {
         let methods = [Heuristic::Auto, Heuristic::Sampled { candidates: 8 }].map(|heuristic| {
             all(&Options::DEFAULT.with_build(BuildOptions::DEFAULT.with_heuristic(heuristic)))
         });
-        for (touches, camera) in in_line(polygons, [28, 21]) {
+        for (touches, camera) in in_line(polygons, [40, 30]) {
             for method in methods.iter().flatten() {
                 let (name, result) = (method.name(), judge(&**method, &faces, &camera));
                 let at = format!("{name} on scene {number} of {camera:?}");
