@@ -7,6 +7,8 @@ target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 # All workspaces compile into one folder, with the flags of a plain `cargo test`: whatever they share is compiled once.
 export CARGO_TARGET_DIR=$target
 export CARGO_TERM_PROGRESS_WHEN=never
+# Nothing is compiled twice, so nothing is gained by what incremental builds keep.
+export CARGO_INCREMENTAL=0
 rust_version=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 logs=$target/ci
 mkdir -p "$logs"
@@ -260,7 +262,7 @@ verify_scene() {
 report() { cargo test --no-run && "$CARGO_TARGET_DIR/debug/binspace-lab" report --quick -o "$logs/report"; }
 
 browser() { cargo test --test program in_browser -- --ignored; }
-browser_cheaply() { cargo test --test program in_browser::turn -- --ignored; }
+browser_cheaply() { cargo test --test program in_browser::deeds -- --ignored; }
 
 # With all features except `validate`, which is slow.
 bits_32() {
@@ -301,7 +303,7 @@ python_environment() {
     local folder=$target/python/$1
     shift
     [ -x "$folder/bin/pip" ] || python3 -m venv "$folder" || return 1
-    logged "$folder/bin/pip" install "$@"
+    logged "$folder/bin/pip" install --no-compile "$@"
 }
 
 # The wheel of the Python package, without optimization. In a folder of its own it does not wait for other steps.
