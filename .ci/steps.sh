@@ -185,7 +185,7 @@ guards() {
     case $1 in
     long_tests) echo "orders of large scenes, culled walks; the long tests of evidence and lecture" ;;
     scenes) echo "real scenes: files read, closed meshes, hits, every pixel" ;;
-    report) echo "no method called exact errs in any family of hard scenes" ;;
+    report) echo "no method called exact errs in any family of hard scenes; evidence and lecture" ;;
     browser) echo "pages that turn a scene, in Chromium" ;;
     bits_32) echo "sizes and numbers where usize has 32 bits" ;;
     mpi) echo "pictures and errors on 1 to 8 MPI ranks" ;;
@@ -210,7 +210,7 @@ paths() {
             tests/{query,obj}/real_scenes.rs tests/mesh/closed.rs cli/tests/program/real_scenes.rs \
             cli/src/commands/verify.rs crates/testkit/src/real_scenes.rs
         ;;
-    report) echo src/exact src/raster src/verify src/scene/generated.rs crates/evidence crates/lab ;;
+    report) echo src/exact src/raster src/verify src/view src/scene crates/evidence crates/lab crates/testkit ;;
     browser)
         echo cli/src/page cli/src/commands/page.rs cli/src/samples.rs cli/tests/program/in_browser \
             crates/testkit/src/browser.rs src/exact/eye.rs src/tree/order
@@ -230,8 +230,11 @@ paths() {
 
 # The tests that take longer. `BINSPACE_EFFORT` is their number of scenes.
 long_tests() {
-    cargo test -- --ignored --skip real_scenes --skip in_browser --skip out_of_memory::one_case
+    cargo test -- --ignored --skip real_scenes --skip in_browser --skip out_of_memory::one_case && evidence --ignored
 }
+
+# evidence OPTION…: the tests of what the library is compared with, and of the lecture.
+evidence() { cargo test -p binspace-evidence -p binspace-lab -- "$@"; }
 
 # Tests of real scenes, and every pixel of them from some views. The program of `cargo test` is fast enough.
 scenes() {
@@ -258,8 +261,8 @@ verify_scene() {
     echo "$(basename "$1"): ${lines##*$'\n'}"
 }
 
-# The program that `cargo test` builds: `cargo run` has other features, and compiles the library again.
-report() { cargo test --no-run && "$CARGO_TARGET_DIR/debug/binspace-lab" report --quick -o "$logs/report"; }
+# The program is the one that the tests have built.
+report() { evidence && "$CARGO_TARGET_DIR/debug/binspace-lab" report --quick -o "$logs/report"; }
 
 browser() { cargo test --test program in_browser -- --ignored; }
 browser_cheaply() { cargo test --test program in_browser::deeds -- --ignored; }
