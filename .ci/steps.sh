@@ -4,10 +4,11 @@
 set -uo pipefail
 
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
-# All workspaces compile into one folder, with the flags of a plain `cargo test`: whatever they share is compiled once.
+# Workspaces compile into one folder, with the flags of a plain `cargo test`: what they share is compiled once. Steps that
+# run beside others have folders of their own.
 export CARGO_TARGET_DIR=$target
 export CARGO_TERM_PROGRESS_WHEN=never
-# Nothing is compiled twice, so nothing is gained by what incremental builds keep.
+# A fresh clone gains nothing from what incremental builds keep.
 export CARGO_INCREMENTAL=0
 rust_version=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 logs=$target/ci
@@ -35,12 +36,24 @@ step() {
     [ "$result" = passed ]
 }
 
-# beside NAME COMMAND…: begins a command that another step waits for, beside the steps before that one.
+# beside NAME COMMAND…: begins a command that a later step waits for, beside the steps before that one. It has a process
+# group of its own, which ends with this script.
 beside() {
     local name=$1
     shift
-    "$@" >"$logs/$name.log" 2>&1 &
+    set -m
+    timed "$@" >"$logs/$name.log" 2>&1 </dev/null &
+    set +m
     printf -v "beside_$name" %s $!
+}
+trap 'for job in $(jobs -p); do kill -- "-$job" 2>/dev/null; done' EXIT
+
+# Runs a command, and says how long it took.
+timed() {
+    local begin=$SECONDS status=0
+    "$@" || status=$?
+    echo "$1 took $((SECONDS - begin)) s beside other steps"
+    return "$status"
 }
 
 # joined NAME: waits for a command of `beside`, and shows what it has written.
@@ -50,8 +63,6 @@ joined() {
     cat "$logs/$1.log"
     return "$status"
 }
-trap 'jobs -p | xargs -r kill 2>/dev/null' EXIT
-
 # skip NAME REASON: notes a step that does not run.
 skip() {
     echo "── $1: skipped: $2"
@@ -176,8 +187,8 @@ installing() {
 }
 
 # --- The parts of .ci/nightly ---
-# Each part has a function that runs it, and for .ci/run the paths that it guards and, except where `cargo test` is
-# the cheapest form, a function `PART_cheaply`.
+# Each part has a function that runs it, and for .ci/run the paths that it guards and a function `PART_cheaply`. Without
+# one, `cargo test` and the lints are the cheapest form.
 
 parts=(long_tests scenes report browser bits_32 mpi gpu oldest old_matplotlib)
 
@@ -210,7 +221,7 @@ paths() {
             tests/{query,obj}/real_scenes.rs tests/mesh/closed.rs cli/tests/program/real_scenes.rs \
             cli/src/commands/verify.rs crates/testkit/src/real_scenes.rs
         ;;
-    report) echo src/exact src/raster src/verify src/view src/scene crates/evidence crates/lab crates/testkit ;;
+    report) echo src crates ;;
     browser)
         echo cli/src/page cli/src/commands/page.rs cli/src/samples.rs cli/tests/program/in_browser \
             crates/testkit/src/browser.rs src/exact/eye.rs src/tree/order
@@ -309,7 +320,8 @@ python_environment() {
     logged "$folder/bin/pip" install --no-compile "$@"
 }
 
-# The wheel of the Python package, without optimization. In a folder of its own it does not wait for other steps.
+# The wheel of the Python package. It is compiled without optimization, which is faster, and in a folder of its own, so
+# that it does not wait for other steps.
 python_wheel() {
     rm -rf "$target/python/wheels"
     "$target/python/new/bin/maturin" build --locked --manifest-path python/Cargo.toml \

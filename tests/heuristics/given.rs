@@ -530,7 +530,7 @@ fn budgets_and_cancellation_end_a_build_by_a_function() {
 
 #[test]
 fn a_function_that_panics_ends_its_own_build_alone() {
-    let scene = scene::city(3000, 1);
+    let scene = scene::city(4500, 1);
     let expected = BuildOptions::DEFAULT.with_chooser(middle).build(scene.polygons());
     let expected = Snapshot::of(&expected.expect("a tree"));
     for threads in [1, 4] {
