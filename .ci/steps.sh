@@ -63,6 +63,7 @@ joined() {
     cat "$logs/$1.log"
     return "$status"
 }
+
 # skip NAME REASON: notes a step that does not run.
 skip() {
     echo "── $1: skipped: $2"
@@ -202,7 +203,7 @@ guards() {
     mpi) echo "pictures and errors on 1 to 8 MPI ranks" ;;
     gpu) echo "the example with wgpu, pixel by pixel" ;;
     oldest) echo "Rust $rust_version, which the packages promise" ;;
-    old_matplotlib) echo "matplotlib 3.8 and numpy 1" ;;
+    old_matplotlib) echo "matplotlib 3.8 and numpy 1, with the wheel that users get" ;;
     fuzzing) echo "inputs that nobody has tried" ;;
     effort) echo "ten times as many scenes, rays and cases" ;;
     demo) echo "the first command of the README" ;;
@@ -221,7 +222,7 @@ paths() {
             tests/{query,obj}/real_scenes.rs tests/mesh/closed.rs cli/tests/program/real_scenes.rs \
             cli/src/commands/verify.rs crates/testkit/src/real_scenes.rs
         ;;
-    report) echo src crates ;;
+    report) echo src crates Cargo.toml Cargo.lock ;;
     browser)
         echo cli/src/page cli/src/commands/page.rs cli/src/samples.rs cli/tests/program/in_browser \
             crates/testkit/src/browser.rs src/exact/eye.rs src/tree/order
@@ -320,12 +321,12 @@ python_environment() {
     logged "$folder/bin/pip" install --no-compile "$@"
 }
 
-# The wheel of the Python package. It is compiled without optimization, which is faster, and in a folder of its own, so
-# that it does not wait for other steps.
+# python_wheel OPTION…: the wheel of the Python package. Without `--release` it is compiled faster. In a folder of its
+# own it does not wait for other steps.
 python_wheel() {
     rm -rf "$target/python/wheels"
     "$target/python/new/bin/maturin" build --locked --manifest-path python/Cargo.toml \
-        --target-dir "$target/python/target" --out "$target/python/wheels"
+        --target-dir "$target/python/target" --out "$target/python/wheels" "$@"
 }
 
 # python_tests FOLDER: the tests of the wheel in an environment.
@@ -335,7 +336,7 @@ python_tests() {
 }
 
 old_matplotlib() {
-    python_environment new 'maturin>=1.9,<2' && python_wheel &&
+    python_environment new 'maturin>=1.9,<2' && python_wheel --release &&
         python_environment old 'matplotlib==3.8.*' 'numpy<2' pytest && python_tests old
 }
 

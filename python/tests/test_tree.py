@@ -395,7 +395,7 @@ import numpy as np, binspace
 # Programs in the background of a shell ignore SIGINT.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 random = np.random.default_rng(1)
-polygons = random.uniform(-1, 1, (2000, 3, 3))
+polygons = random.uniform(-1, 1, (3000, 3, 3))
 few = binspace.Tree(polygons[:100])
 # Arrays of one point, repeated without memory. All these rays would take hours.
 eye, far = (np.broadcast_to(np.array(point), (1 << 31, 3)) for point in ((0.01, 0.02, -2.0), (0.02, 0.01, 2.0)))

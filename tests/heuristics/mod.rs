@@ -203,7 +203,7 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
     let (mut clean, mut cut) = (0, 0);
     let (mut clean_of_frames, mut needed) = (0, 0);
     for count in [40, 63, 64, 65, 210, 255, 256, 257] {
-        for seed in [1, 2] {
+        for seed in [1, 2, 4] {
             // Some polygons have no area.
             let mut scene = scene(&mut Dice(seed), count + count / 4);
             scene.retain(|polygon| {
@@ -235,8 +235,8 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
             });
         }
     }
-    enough!(clean > 1300, cut > 33; "{clean} {cut}");
-    enough!(clean_of_frames > 1300, needed > 6; "{clean_of_frames} {needed}");
+    enough!(clean > 2000, cut > 50; "{clean} {cut}");
+    enough!(clean_of_frames > 2000, needed > 10; "{clean_of_frames} {needed}");
 }
 
 /// If every plane cuts, `auto` uses the own plane with the least work less the reward for its size. In a
@@ -245,7 +245,7 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
 #[test]
 fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
     let (mut cut, mut rewarded, mut crossings) = ([0; 2], 0, 0);
-    for (seed, of_frame) in (0..seeds(180).end).flat_map(|seed| [(seed, false), (seed, true)]) {
+    for (seed, of_frame) in (0..seeds(360).end).flat_map(|seed| [(seed, false), (seed, true)]) {
         let scene = scene(&mut Dice(seed), 4 + seed as usize % 13);
         let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));
         let tree = build(&scene, Heuristic::Auto);
@@ -271,8 +271,8 @@ fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
                 usize::from(planes.iter().any(|(counts, _)| counts.work() < node.counts.work()));
         });
     }
-    enough!(cut[0] > 25, cut[1] > 12, rewarded > 2; "{cut:?} {rewarded}");
-    enough!(crossings > 12; "{crossings}");
+    enough!(cut[0] > 50, cut[1] > 25, rewarded > 5; "{cut:?} {rewarded}");
+    enough!(crossings > 25; "{crossings}");
 }
 
 /// Squares of z = x² + y² over a grid of integers: exactly planar, in exactly convex position.

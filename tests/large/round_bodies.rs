@@ -118,7 +118,7 @@ pub(crate) fn pipe(dice: &mut Dice, n: usize) -> Scene {
 
 #[test]
 fn convex_bodies_are_not_cut_by_auto() {
-    for count in [450, 1800] {
+    for count in [450, 2200] {
         let sphere = sphere(&mut Dice(1), count);
         let tree = sphere.build(Heuristic::Auto, 100 * count).expect("within budget");
         assert_eq!(tree.len(), sphere.polygons.len());

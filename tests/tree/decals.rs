@@ -5,6 +5,7 @@
 //! plane; rationals decide that. The tree is not asked which polygons it takes for coplanar, but which plane
 //! separates two fragments: parts within the tolerance of a plane that crosses both may come in either order.
 
+use binspace::Ray;
 use binspace::glam::{DQuat, EulerRot};
 use std::f64::consts::TAU;
 use testkit::prelude::*;
@@ -247,6 +248,24 @@ fn is_inside(outline: &[DVec2], at: DVec2) -> bool {
     low > 1e-4 || high < -1e-4
 }
 
+/// Rays through the cards hit the same polygons in the same order, whichever planes divide the tree.
+fn hits_are_equal(trees: &[(String, BspTree)], decals: &Decals, dice: &mut Dice) {
+    for &[card, _] in &decals.pairs {
+        let corners = &decals.polygons[card];
+        let at = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        let towards = dvec3(dice.range(-1.0, 1.0), dice.range(-1.0, 1.0), dice.range(-1.0, 1.0));
+        let of = |tree: &BspTree| -> Vec<(usize, f64)> {
+            let hits = tree.hits(Ray::new(at - 3.0 * towards, towards));
+            hits.map(|hit| (hit.polygon(), hit.parameter())).collect()
+        };
+        let expected = of(&trees[0].1);
+        assert!(!expected.is_empty(), "{at} {towards}");
+        for (name, tree) in trees {
+            assert_eq!(of(tree), expected, "{name}: {at} {towards}");
+        }
+    }
+}
+
 /// The face leaves the card's plane on one side only, so the card's plane cuts nothing.
 #[test]
 fn a_card_whose_plane_passes_beside_its_face_keeps_its_place() {
@@ -291,6 +310,7 @@ fn cards_on_bodies_come_in_input_order_at_default_tolerances() {
             for (name, tree) in &all {
                 judge(name, tree, &decals, &mut dice, &mut counts);
             }
+            hits_are_equal(&all, &decals, &mut dice);
         }
         assert!(counts.compared > 4_000, "{numbers:?}: {counts:?}");
         assert!(counts.crossed * 100 < counts.compared, "{numbers:?}: {counts:?}");

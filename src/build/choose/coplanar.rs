@@ -11,9 +11,9 @@ use crate::build::piece::{Division, Piece};
 use crate::exact::{PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side};
 use crate::progress::Watch;
 
-/// The largest number of planes that are tried in place of one plane. Too small: of several pieces, each
-/// coplanar only with the next, two lose input order. Too large: a set that is made for it is classified so
-/// often.
+/// The largest number of faces whose planes are tried, including the first plane if it is a face's. Too small:
+/// of several pieces, each coplanar only with the next, two lose input order. Too large: a set that is made for
+/// it is classified so often.
 const MOST_PLANES: usize = 8;
 
 /// Classifies a set by a plane. If the plane would separate coplanar pieces that overlap, or cut one of them,
@@ -22,8 +22,9 @@ const MOST_PLANES: usize = 8;
 /// Coplanar polygons come in input order, so they have to lie in one node. But the plane of a small polygon,
 /// extended across a large polygon in the same plane, can deviate from it by more than the tolerance, on one
 /// side or on both. [`Faces::are_coplanar`](crate::exact::Faces::are_coplanar) decides what is coplanar. A
-/// piece can be coplanar with several that are not coplanar with each other: then every plane separates some
-/// of them, and the last one is used.
+/// piece can be coplanar with several that are not coplanar with each other. Then there may be no plane that
+/// keeps all of them together: the search ends when every larger face was tried, or after [`MOST_PLANES`]
+/// faces, and the last plane is used. (Any of them would do, because each separates some pair.)
 pub(in crate::build) fn settle(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,

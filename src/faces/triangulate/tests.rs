@@ -313,6 +313,8 @@ fn sides_that_cross_near_their_ends_are_joined_there() {
 fn one_polygon_polls_for_cancellation() {
     for (name, corners) in large(50_000) {
         let (_, all) = steps(&corners);
+        // Otherwise a run that is never cancelled would pass.
+        assert!(all * 3 > 8 * (PULSE + 2 * PIECES_AT_ONCE), "{name}: {all}");
         for share in [0, 1, 3, 5] {
             let callback = |watch: &Watch<'_>| match watch.examined() * 8 > all * share {
                 true => ControlFlow::Break(()),
