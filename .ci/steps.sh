@@ -5,7 +5,7 @@ set -uo pipefail
 
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 # Workspaces compile into one folder, with the flags of a plain `cargo test`: what they share is compiled once. Steps that
-# run beside others have folders of their own.
+# run beside others have folders of their own, because in one folder Cargo lets one wait for another.
 export CARGO_TARGET_DIR=$target
 export CARGO_TERM_PROGRESS_WHEN=never
 # A fresh clone gains nothing from what incremental builds keep.
@@ -21,68 +21,60 @@ fi
 
 # --- Steps ---
 
-rows=()
-failed=()
-skipped=()
+# Steps that run beside others write to the same files.
+rm -f "$logs"/{rows,failed,skipped,settled}
+touch "$logs"/{rows,failed,skipped,settled}
 
 # step NAME GUARDS COMMAND…: runs a command, and notes its seconds and whether it failed.
 step() {
     local name=$1 guards=$2 begin=$SECONDS result=passed
     shift 2
     echo "── $name: $*"
-    "$@" || { result=FAILED && failed+=("$name"); }
+    "$@" || { result=FAILED && echo "$name" >>"$logs/failed"; }
     echo "── $name: $result after $((SECONDS - begin)) s"
-    rows+=("$((SECONDS - begin))|$result|$name|$guards")
+    echo "$((SECONDS - begin))|$result|$name|$guards" >>"$logs/rows"
     [ "$result" = passed ]
 }
 
-# beside NAME COMMAND…: begins a command that a later step waits for, beside the steps before that one. It has a process
-# group of its own, which ends with this script.
+# beside NAME: begins a function of steps, which runs beside the steps that follow. It has a process group of its own,
+# which ends with this script.
 beside() {
-    local name=$1
-    shift
     set -m
-    timed "$@" >"$logs/$name.log" 2>&1 </dev/null &
+    "$1" >"$logs/$1.log" 2>&1 </dev/null &
     set +m
-    printf -v "beside_$name" %s $!
+    printf -v "beside_$1" %s $!
 }
 trap 'for job in $(jobs -p); do kill -- "-$job" 2>/dev/null; done' EXIT
 
-# Runs a command, and says how long it took.
-timed() {
-    local begin=$SECONDS status=0
-    "$@" || status=$?
-    echo "$1 took $((SECONDS - begin)) s beside other steps"
-    return "$status"
-}
-
-# joined NAME: waits for a command of `beside`, and shows what it has written.
+# joined NAME: waits for a function of `beside`, and shows what it has written. One that ended before its last step has
+# failed.
 joined() {
-    local pid=beside_$1 status=0
-    wait "${!pid}" || status=$?
+    local pid=beside_$1
+    wait "${!pid}" || echo "$1" >>"$logs/failed"
     cat "$logs/$1.log"
-    return "$status"
 }
 
 # skip NAME REASON: notes a step that does not run.
 skip() {
     echo "── $1: skipped: $2"
-    skipped+=("$1: $2")
+    echo "$1: $2" >>"$logs/skipped"
 }
 
-# Prints the table of all steps, and exits with 1 if one failed.
+# Notes the parts that passed, prints the table of all steps, and exits with 1 if one failed.
 finish() {
-    local row seconds result name guards
+    local name seconds result guards
+    while read -r name; do
+        record "$name"
+    done <"$logs/settled"
     echo
     printf '%7s  %-6s  %-38s  %s\n' seconds result step guards
-    for row in "${rows[@]}"; do
-        IFS='|' read -r seconds result name guards <<<"$row"
+    while IFS='|' read -r seconds result name guards; do
         printf '%7s  %-6s  %-38s  %s\n' "$seconds" "$result" "$name" "$guards"
-    done
+    done <"$logs/rows"
     echo
-    [ ${#skipped[@]} = 0 ] || printf 'skipped: %s\n' "${skipped[@]}"
-    if [ ${#failed[@]} -gt 0 ]; then
-        echo "FAILED in $SECONDS s: $(printf '%s; ' "${failed[@]}")"
+    sed 's/^/skipped: /' "$logs/skipped"
+    if [ -s "$logs/failed" ]; then
+        echo "FAILED in $SECONDS s: $(paste -sd ';' "$logs/failed")"
         exit 1
     fi
     echo "ALL PASSED in $SECONDS s"
@@ -175,9 +167,10 @@ install() {
 # Runs a command that downloads, and shows its output only if it fails.
 logged() {
     echo "installing: $*"
-    timeout 600 "$@" >"$logs/install.log" 2>&1 && return
+    local log=$logs/install-$BASHPID.log
+    timeout 600 "$@" >"$log" 2>&1 && return
     echo "failed: $*"
-    tail -n 40 "$logs/install.log"
+    tail -n 40 "$log"
     return 1
 }
 
