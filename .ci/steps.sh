@@ -4,8 +4,7 @@
 set -uo pipefail
 
 target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
-# Workspaces compile into one folder, with the flags of a plain `cargo test`: what they share is compiled once. Steps that
-# run beside others have folders of their own, because in one folder Cargo lets one wait for another.
+# Workspaces compile into one folder, with the flags of a plain `cargo test`: what they share is compiled once.
 export CARGO_TARGET_DIR=$target
 export CARGO_TERM_PROGRESS_WHEN=never
 # A fresh clone gains nothing from what incremental builds keep.
@@ -315,7 +314,7 @@ python_environment() {
 }
 
 # python_wheel OPTION…: the wheel of the Python package. Without `--release` it is compiled faster. In a folder of its
-# own it does not wait for other steps.
+# own, Cargo does not let it wait for other steps.
 python_wheel() {
     rm -rf "$target/python/wheels"
     "$target/python/new/bin/maturin" build --locked --manifest-path python/Cargo.toml \
