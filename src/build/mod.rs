@@ -10,6 +10,7 @@ pub(crate) mod frames;
 mod jobs;
 mod options;
 pub(crate) mod piece;
+mod small;
 mod subtree;
 
 pub use choose::{PieceSet, SplitPlane};

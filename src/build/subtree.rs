@@ -8,6 +8,7 @@ use super::choose::{Choice, ChooseContext, Chooser, Peeled, Set, Tuning, settle}
 use super::jobs::{Job, Output, is_worth_a_job};
 use super::options::BuildOptions;
 use super::piece::{Division, Piece, Splitter};
+use super::small::SmallSet;
 use crate::error::{Error, Kind};
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
 use crate::memory::{collect, reserve};
@@ -23,12 +24,12 @@ const COMPACT: usize = 1 << 13;
 
 /// The data that all jobs of a build share.
 pub(in crate::build) struct Shared<'a> {
-    faces: &'a Faces,
+    pub(super) faces: &'a Faces,
     options: &'a BuildOptions,
-    rules: ChooseContext<'a>,
-    budget: Budget,
+    pub(super) rules: ChooseContext<'a>,
+    pub(super) budget: Budget,
     /// The planes of all faces, if the planes were prepared in advance.
-    planes: &'a [PreparedPlane],
+    pub(super) planes: &'a [PreparedPlane],
     /// Whether the rounded positions of vertices go into the output.
     keeps_positions: bool,
 }
@@ -44,6 +45,14 @@ impl<'a> Shared<'a> {
         let budget = Budget::new(options, faces.len())?;
         let rules = ChooseContext::new(options, tuning, watch);
         Ok(Self { faces, options, rules, budget, planes: &[], keeps_positions: false })
+    }
+
+    /// A set without pieces, for questions about planes and pieces of a table.
+    pub(super) fn bare_set<'s>(&self, arena: &'s [Vertex]) -> Set<'s>
+    where
+        'a: 's,
+    {
+        Set::new(self.faces, &[], arena).with(self.planes)
     }
 
     /// Stops all jobs of the build.
@@ -70,9 +79,6 @@ struct Pending {
     arena: usize,
     /// The number of nodes above the set.
     depth: usize,
-    /// Whether peeling has just been tried on this set. If so, and the set is small, a plane divides it
-    /// first.
-    is_peeled: bool,
     /// The other job that builds the set's subtree, if any.
     job: Option<usize>,
 }
@@ -94,10 +100,11 @@ pub(in crate::build) struct Builder {
     division: Division,
     /// The pieces of the current set that lie on the dividing plane, in front of this plane, and across this
     /// plane.
-    own: Vec<Piece>,
+    pub(super) own: Vec<Piece>,
     front: Vec<Piece>,
     spanning: Vec<Piece>,
-    splitter: Splitter,
+    pub(super) splitter: Splitter,
+    pub(super) small: SmallSet,
 }
 
 impl Builder {
@@ -112,7 +119,7 @@ impl Builder {
         (self.pieces, self.arena, self.compact_at) = (pieces, arena, COMPACT);
         self.output.clear();
         self.pending.clear();
-        self.push_pending(0, depth, false, None);
+        self.push_pending(0, depth, None);
         while let Some(pending) = self.pending.pop() {
             shared.rules.watch.work(0)?;
             if let Some(job) = pending.job {
@@ -130,9 +137,9 @@ impl Builder {
     }
 
     /// Records that the pieces on top of the stack are still to be divided, here or by another job.
-    fn push_pending(&mut self, start: usize, depth: usize, is_peeled: bool, job: Option<usize>) {
+    fn push_pending(&mut self, start: usize, depth: usize, job: Option<usize>) {
         let (range, arena) = (start..self.pieces.len(), self.arena.len());
-        self.pending.push(Pending { range, arena, depth, is_peeled, job });
+        self.pending.push(Pending { range, arena, depth, job });
     }
 
     /// Writes the node of the set on top of the stack, and puts the set's two sides on the stack.
@@ -143,7 +150,7 @@ impl Builder {
         hand_over: &mut Option<HandOver<'_>>,
     ) -> Result<(), Error> {
         let start = pending.range.start;
-        let Self { chooser, division, pieces, arena, .. } = self;
+        let Self { chooser, division, pieces, arena, small, .. } = self;
         let Some(first) = pieces.get(start) else { return Ok(()) };
         shared.budget.check_depth(pending.depth + 1)?;
         let mut set = Set::new(shared.faces, &pieces[start..], arena);
@@ -155,10 +162,15 @@ impl Builder {
             division.plane = None;
             Choice::Split(own)
         } else {
-            chooser.choose(&shared.rules, &set, pending.is_peeled, division)?
+            chooser.choose(&shared.rules, &set, division)?
         };
         let plane = match choice {
             Choice::Split(plane) => plane,
+            Choice::Table if shared.rules.given.is_none() => {
+                return self.build_small(shared, start, pending.depth);
+            }
+            // The caller's function is asked again at each set.
+            Choice::Table => small.plane(&shared.rules, &set),
             Choice::Peel(peeled) => return self.emit_peeled(shared, start, pending.depth, &peeled),
         };
         settle(&shared.rules, &set, division, plane)?;
@@ -205,14 +217,14 @@ impl Builder {
     }
 
     /// Appends a piece to the output as a fragment.
-    fn store(&mut self, shared: &Shared<'_>, piece: &Piece) -> Result<(), Error> {
+    pub(super) fn store(&mut self, shared: &Shared<'_>, piece: &Piece) -> Result<(), Error> {
         let vertices = piece.cut_vertices(&self.arena).unwrap_or_default();
         shared.rules.watch.finish(piece.cuts);
         self.output.push(piece.face, vertices, shared.keeps_positions)
     }
 
     /// Appends the pieces on the plane of a node. Coplanar polygons are painted in input order.
-    fn store_own(&mut self, shared: &Shared<'_>) -> Result<u32, Error> {
+    pub(super) fn store_own(&mut self, shared: &Shared<'_>) -> Result<u32, Error> {
         let mut own = take(&mut self.own);
         own.sort_unstable_by_key(Piece::rank);
         own.iter().try_for_each(|piece| self.store(shared, piece))?;
@@ -303,7 +315,7 @@ impl Builder {
                 }
                 _ => None,
             };
-            self.push_pending(start, depth, false, job);
+            self.push_pending(start, depth, job);
         }
         if !front_is_leaf {
             let start = self.pieces.len();
@@ -314,7 +326,7 @@ impl Builder {
                 reserve(&mut self.pieces, front)?;
                 self.pieces.extend_from_slice(&self.front);
             }
-            self.push_pending(start, depth, false, None);
+            self.push_pending(start, depth, None);
         }
         Ok(())
     }
@@ -353,7 +365,7 @@ impl Builder {
         }
         self.pieces.truncate(next);
         if !is_leaf(&self.pieces[start..]) {
-            self.push_pending(start, depth, true, None);
+            self.push_pending(start, depth, None);
             return Ok(());
         }
         // The last layer's node was written with a child node that now turns out to be a leaf.
@@ -371,10 +383,10 @@ fn is_leaf(pieces: &[Piece]) -> bool {
 }
 
 /// Cutting a piece counts as the work of classifying this many pieces.
-const CUT: usize = 64;
+pub(super) const CUT: usize = 64;
 
 /// The budget shared by all jobs of a build.
-struct Budget {
+pub(super) struct Budget {
     /// The number of pieces so far, over all jobs.
     fragments: AtomicUsize,
     max_fragments: usize,
@@ -394,13 +406,13 @@ impl Budget {
     }
 
     /// Counts new pieces. Returns an error if there are too many.
-    fn count(&self, new: usize) -> Result<(), Error> {
+    pub(super) fn count(&self, new: usize) -> Result<(), Error> {
         let total = self.fragments.fetch_add(new, Ordering::Relaxed) + new;
         if total > self.max_fragments { Err(self.exceeded()) } else { Ok(()) }
     }
 
     /// Returns an error if a node at this depth is too deep.
-    fn check_depth(&self, depth: usize) -> Result<(), Error> {
+    pub(super) fn check_depth(&self, depth: usize) -> Result<(), Error> {
         if depth > self.max_depth { Err(self.exceeded()) } else { Ok(()) }
     }
 

@@ -6,6 +6,7 @@ use super::frame_planes::find_own;
 use super::own::{Candidates, Sample};
 use super::peel::{Peeler, arrange};
 use super::set::{LANES, Set};
+use super::table::Table;
 use super::tuning::Tuning;
 use super::{Choice, ChooseContext};
 use crate::Error;
@@ -25,19 +26,17 @@ pub(super) struct Auto {
 impl Auto {
     /// Returns the first of the following that exists: in frames, an own plane that is good enough; the plane
     /// on which all pieces lie; in a set of two pieces, the plane of a piece that does not cut the other
-    /// piece; a free plane that cuts nothing; pieces that can be peeled off; the plane with the lowest cost.
-    /// (In a small set, an own plane that cuts nothing and divides the set evenly precedes peeling.) Writes
-    /// the plane and the pieces' sides to `division`, if the sides are known.
+    /// piece; a free plane that cuts nothing; in a small set, a table; pieces that can be peeled off; the plane
+    /// with the lowest cost. Writes the plane and the pieces' sides to `division`, if the sides are known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
-        is_peeled: bool,
         division: &mut Division,
     ) -> Result<Choice, Error> {
         let ChooseContext { tuning, watch, .. } = *rules;
         if let Some(frames) = &tuning.frames
-            && set.len() < tuning.small
+            && set.len() <= tuning.small
             && let Some(plane) = find_own(set, tuning, frames, division)
         {
             return Ok(Choice::Split(plane));
@@ -61,8 +60,8 @@ impl Auto {
         {
             return Ok(Choice::Split(free.plane));
         }
-        if set.len() < tuning.small {
-            Ok(self.best_of_small(rules, set, free, is_peeled))
+        if Table::holds(set, tuning) {
+            Ok(Choice::Table)
         } else {
             self.best_of_large(rules, set, free)
         }
@@ -89,34 +88,6 @@ impl Auto {
         pieces().all(|piece| set.classify(&prepared, piece) == Side::Coplanar).then_some(plane)
     }
 
-    fn best_of_small(
-        &mut self,
-        rules: &ChooseContext<'_>,
-        set: &Set<'_>,
-        free: Option<PricedPlane>,
-        is_peeled: bool,
-    ) -> Choice {
-        let ChooseContext { tuning, watch, .. } = *rules;
-        let terms = CostModel::small(set, tuning);
-        self.sample.restart(set, set.len());
-        self.candidates.begin(set, &mut self.sample, tuning.own_planes, &terms, tuning);
-        let own = self.candidates.best(set, &mut self.sample, &terms, tuning);
-        if let Some(own) = own
-            && own.cost.divides_evenly(set.len(), tuning.uneven)
-        {
-            return Choice::Split(own.plane);
-        }
-        let places = self.candidates.one_sided();
-        if !is_peeled
-            && !places.is_empty()
-            && let Some(peeled) =
-                self.peeler.search(set, &self.sample.sketch, places.iter().copied(), tuning, watch)
-        {
-            return Choice::Peel(peeled);
-        }
-        better(set, &terms, own, free)
-    }
-
     fn best_of_large(
         &mut self,
         rules: &ChooseContext<'_>,
@@ -124,7 +95,7 @@ impl Auto {
         free: Option<PricedPlane>,
     ) -> Result<Choice, Error> {
         let ChooseContext { tuning, watch, .. } = *rules;
-        let terms = CostModel::large(set, tuning);
+        let terms = CostModel::of(set, tuning);
         // Each step is a pass over the set, or several.
         watch.work(set.len())?;
         self.begin_large(set, &terms, tuning);
@@ -138,15 +109,21 @@ impl Auto {
                 sketch.extend(set, part.iter().copied());
                 watch.work(part.len())?;
             }
-            if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch) {
+            if let Some(peeled) = self.peeler.search(set, sketch, tuning, watch) {
                 return Ok(Choice::Peel(peeled));
             }
             // The packed pieces are now in another order, whose first pieces are not a sample.
             self.begin_large(set, &terms, tuning);
             watch.work(set.len())?;
         }
-        let own = self.candidates.best(set, &mut self.sample, &terms, tuning);
-        Ok(better(set, &terms, own, free))
+        let other = free.map_or(f64::INFINITY, |free| free.cost.amount);
+        let own = self.candidates.best(set, &mut self.sample, &terms, tuning, other);
+        Ok(Choice::Split(match (own, free) {
+            (Some((_, cost)), Some(free)) if free.cost.amount < cost => free.plane,
+            (Some((plane, _)), _) => plane,
+            (None, Some(free)) => free.plane,
+            (None, None) => set.own_plane(0),
+        }))
     }
 
     /// Compares own planes of a large set with a first sample of the set.
@@ -163,20 +140,6 @@ fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
     [0, 1].into_iter().find_map(|own| {
         let plane = set.own_plane(own);
         (set.classify(&set.prepare(plane), 1 - own) != Side::Spanning).then_some(plane)
-    })
-}
-
-/// The better of an own plane and a free plane.
-fn better(
-    set: &Set<'_>,
-    terms: &CostModel,
-    own: Option<PricedPlane>,
-    free: Option<PricedPlane>,
-) -> Choice {
-    Choice::Split(match (own, free) {
-        (Some(own), Some(free)) if terms.compared(free.cost).is_less(&own.cost) => free.plane,
-        (Some(one), _) | (None, Some(one)) => one.plane,
-        (None, None) => set.own_plane(0),
     })
 }
 

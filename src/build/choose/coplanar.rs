@@ -14,7 +14,7 @@ use crate::progress::Watch;
 /// The largest number of faces whose planes are tried, including the first plane if it is a face's. Too small:
 /// of several pieces, each coplanar only with the next, two lose input order. Too large: a set that is made for
 /// it is classified so often.
-const MOST_PLANES: usize = 8;
+pub(super) const MOST_PLANES: usize = 8;
 
 /// Classifies a set by a plane. If the plane would separate coplanar pieces that overlap, or cut one of them,
 /// classifies the set by the plane of the larger piece instead.

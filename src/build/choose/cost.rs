@@ -39,8 +39,7 @@ impl AddAssign for Counts {
 ///
 /// A plane that cuts nothing costs less than any plane that cuts, because such a plane adds no fragment, now
 /// or later. (Proof: restrict the smallest tree of the set to each side of the plane. The two restricted
-/// trees together have no more fragments.) Exception: costs of large sets ignore cuts (see
-/// `CostModel::large`).
+/// trees together have no more fragments.) Exception: own planes of large sets (see [`CostModel`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,
@@ -81,52 +80,31 @@ impl Cost {
     }
 }
 
-/// The weights for comparing candidates.
+/// The weights for comparing candidates in a large set, where cuts are ignored: the first rounds use a sample,
+/// and many planes that cut much of the set cut nothing of the sample. Planes at the boundary of a set also cut
+/// nothing, but they would turn the set into a list.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CostModel {
     /// The reward of a polygon that fills the box.
     reward: f64,
-    /// Whether a plane that cuts nothing is preferred to all planes that cut.
-    prefers_uncut: bool,
 }
 
 impl CostModel {
-    /// The weights for a small set, where planes that cut nothing are preferred.
-    pub(super) fn small(set: &Set<'_>, tuning: &Tuning) -> Self {
-        Self::of(set.len(), set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum(), tuning)
-    }
-
-    /// The weights for `pieces` pieces that have been cut `cuts` times in total.
-    pub(super) fn of(pieces: usize, cuts: usize, tuning: &Tuning) -> Self {
-        let pieces = pieces as f64;
-        let mean = cuts as f64 / pieces;
-        Self { reward: tuning.reward * (1.0 + mean) * pieces, prefers_uncut: true }
-    }
-
-    /// The weights for a large set, where cuts are ignored. The first rounds use a sample, and many planes
-    /// that cut much of the set cut nothing of the sample. Planes at the boundary of a set also cut nothing,
-    /// but they would turn the set into a list.
-    pub(super) fn large(set: &Set<'_>, tuning: &Tuning) -> Self {
-        Self { prefers_uncut: false, ..Self::small(set, tuning) }
+    pub(super) fn of(set: &Set<'_>, tuning: &Tuning) -> Self {
+        let pieces = set.len() as f64;
+        let cuts: usize = set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum();
+        Self { reward: tuning.reward * (1.0 + cuts as f64 / pieces) * pieces }
     }
 
     /// The same weights for counts over a sample of `looked` of `all` pieces. (Work is a power of the number
     /// of pieces, so costs over a sample are costs over all pieces times one factor.)
     pub(super) fn of_sample(&self, looked: usize, all: usize) -> Self {
-        Self { reward: self.reward * work(looked) / work(all), ..*self }
+        Self { reward: self.reward * work(looked) / work(all) }
     }
 
     #[inline]
-    pub(super) fn cost(&self, counts: &Counts, share: f64) -> Cost {
-        let cost = self.compared(Cost::of(counts));
-        Cost { amount: cost.amount - self.reward * share, ..cost }
-    }
-
-    /// Returns the cost to compare under these weights. Removes the cuts from the cost if the weights ignore
-    /// cuts.
-    #[inline]
-    pub(super) fn compared(&self, cost: Cost) -> Cost {
-        Cost { cuts: cost.cuts && self.prefers_uncut, ..cost }
+    pub(super) fn cost(&self, counts: &Counts, share: f64) -> f64 {
+        Cost::of(counts).amount - self.reward * share
     }
 }
 
@@ -196,21 +174,17 @@ mod tests {
 
     #[test]
     fn weights_of_large_sets_ignore_cuts() {
-        let [small, large] =
-            [true, false].map(|prefers_uncut| CostModel { reward: 10.0, prefers_uncut });
+        let terms = CostModel { reward: 10.0 };
         let even = Counts { front: 45, back: 45, splits: 10 };
         let rim = Counts { front: 99, back: 0, splits: 0 };
-        let is_even_better =
-            |terms: &CostModel| terms.cost(&even, 0.5).is_less(&terms.cost(&rim, 0.5));
-        assert!(!is_even_better(&small) && is_even_better(&large));
-        let counts_cuts = |terms: &CostModel| terms.compared(Cost::of(&even)).cuts;
-        assert!(counts_cuts(&small) && !counts_cuts(&large));
+        assert!(terms.cost(&even, 0.5) < terms.cost(&rim, 0.5));
+        assert!(Cost::of(&rim).is_less(&Cost::of(&even)));
     }
 
     /// Halving a set and all counts reduces all costs by the same factor.
     #[test]
     fn costs_of_a_sample_are_proportional_to_costs_of_the_set() {
-        let terms = CostModel { reward: 300.0, prefers_uncut: false };
+        let terms = CostModel { reward: 300.0 };
         let half = terms.of_sample(200, 400);
         for (front, back, splits, share) in
             [(300, 80, 20, 0.9), (200, 200, 0, 0.1), (0, 0, 400, 1.0)]
@@ -218,8 +192,8 @@ mod tests {
             let all = terms.cost(&Counts { front, back, splits }, share);
             let [front, back, splits] = [front, back, splits].map(|count| count / 2);
             let sample = half.cost(&Counts { front, back, splits }, share);
-            let expected = all.amount * work(200) / work(400);
-            assert!((sample.amount - expected).abs() < 1e-9, "{sample:?}, not {expected}");
+            let expected = all * work(200) / work(400);
+            assert!((sample - expected).abs() < 1e-9, "{sample:?}, not {expected}");
         }
     }
 }

@@ -16,6 +16,7 @@ mod given;
 mod own;
 mod peel;
 mod set;
+mod table;
 mod tuning;
 
 use super::options::{BuildOptions, DEFAULT_WEIGHTS, Heuristic};
@@ -33,6 +34,7 @@ pub(super) use given::GivenChooser;
 pub use given::{PieceSet, SplitPlane};
 pub(super) use peel::Peeled;
 pub(super) use set::Set;
+pub(super) use table::{CutBy, Mask, Part, Sides, Table};
 pub use tuning::{FrameTuning, Tuning};
 
 /// Chooses partition planes, with reused lists.
@@ -43,14 +45,12 @@ pub(super) struct Chooser {
 }
 
 impl Chooser {
-    /// Chooses how a set of at least one piece is divided. `is_peeled` means that peeling left this set; if
-    /// the set is small, peeling is not tried again. Not every chosen plane makes progress; the builder
+    /// Chooses how a set of at least one piece is divided. Not every chosen plane makes progress; the builder
     /// checks this. Writes the plane and the pieces' sides to `division`, if the sides are known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
-        is_peeled: bool,
         division: &mut Division,
     ) -> Result<Choice, Error> {
         division.plane = None;
@@ -95,7 +95,7 @@ impl Chooser {
                 };
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
-            Heuristic::Auto => return self.auto.choose(rules, set, is_peeled, division),
+            Heuristic::Auto => return self.auto.choose(rules, set, division),
         }))
     }
 
@@ -121,6 +121,8 @@ impl Chooser {
 pub(in crate::build) enum Choice {
     /// This plane divides the set.
     Split(PlaneId),
+    /// A table divides the whole set.
+    Table,
     /// These pieces are separated from the set, one layer after the other.
     Peel(Peeled),
 }

@@ -1,7 +1,7 @@
 //! The best plane among the pieces' own planes: by counting all pieces, or by successive halving of the
 //! candidates over growing samples.
 
-use super::cost::{Cost, CostModel, Counts, PricedPlane};
+use super::cost::{CostModel, Counts, work};
 use super::set::{LANES, PackedPieces, PackedPlane, Set};
 use super::tuning::Tuning;
 use crate::build::piece::Piece;
@@ -14,7 +14,7 @@ struct Candidate {
     /// The piece, by its number in the set.
     piece: usize,
     /// The cost of the piece's plane, estimated from `counts`.
-    cost: Cost,
+    cost: f64,
     /// The share of the set's bounding box that the piece fills, 0 to 1.
     share: f64,
     plane: PackedPlane,
@@ -45,6 +45,14 @@ impl Shares {
     }
 }
 
+/// No more pieces than this are compared with candidates. Too small: worse planes. Too large: time.
+const LARGEST_SAMPLE: usize = 1024;
+/// The least sample after which the search may end early. Too small: good planes are dropped by chance.
+const ENOUGH: usize = 64;
+/// The search ends early if all costs over the sample are more than this many times the cost of another plane.
+/// Too small: good planes are dropped. Too large: time.
+const HOPELESS: f64 = 1.15;
+
 /// Compares candidates with more and more pieces, and keeps the best candidates (successive halving: Karnin,
 /// Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
 #[derive(Debug, Default)]
@@ -53,7 +61,7 @@ pub(super) struct Candidates {
     /// The number of groups of packed pieces that the candidates were compared with.
     seen: usize,
     /// The cost of each candidate, with the candidate's place in the field.
-    ranks: Vec<(Cost, u32)>,
+    ranks: Vec<(f64, u32)>,
     /// The places of the candidates whose planes had all pieces of the first sample on one side. A candidate
     /// had the same place in the initial field and in the packed pieces.
     one_sided: Vec<usize>,
@@ -80,7 +88,7 @@ impl Candidates {
             share: shares.get(&set.pieces[piece]),
             plane: sketch.plane(set, piece),
             counts: Counts::default(),
-            cost: Cost::MOST,
+            cost: f64::INFINITY,
         }));
         self.look(set, sample, tuning.first_sample, terms);
         let is_one_sided =
@@ -96,25 +104,30 @@ impl Candidates {
         &self.one_sided
     }
 
-    /// Returns the best plane of the field, after comparing the planes with larger and larger parts of the
-    /// set. Of equal planes, returns the earliest.
+    /// Returns the best plane of the field and its cost, after comparing the planes with larger and larger parts
+    /// of the set. Of equal planes, returns the earliest. Ends early, with no plane, if all planes cost far more
+    /// than `other`, another plane's cost.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
         sample: &mut Sample,
         terms: &CostModel,
         tuning: &Tuning,
-    ) -> Option<PricedPlane> {
-        let mut pieces = tuning.first_sample;
-        while pieces < set.len() {
+        other: f64,
+    ) -> Option<(PlaneId, f64)> {
+        let mut looked = tuning.first_sample;
+        while looked < set.len().min(LARGEST_SAMPLE) {
+            let most = HOPELESS * other * work(looked) / work(set.len());
+            if looked >= ENOUGH && self.field.iter().all(|candidate| candidate.cost > most) {
+                return None;
+            }
             self.halve(tuning.rate);
-            pieces *= tuning.rate;
-            self.look(set, sample, pieces, terms);
+            looked *= tuning.rate;
+            self.look(set, sample, looked, terms);
         }
-        let best = self.field.iter().min_by(|a, b| a.cost.cmp(&b.cost));
-        let own =
-            |best: &Candidate| PricedPlane { plane: set.own_plane(best.piece), cost: best.cost };
-        best.map(own)
+        let best = self.field.iter().min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+        let cost = best.cost * work(set.len()) / work(looked.min(set.len()));
+        Some((set.own_plane(best.piece), cost))
     }
 
     /// Keeps the best 1/`rate` of the candidates, in unchanged order.
@@ -125,7 +138,7 @@ impl Candidates {
         }
         self.ranks.clear();
         self.ranks.extend(self.field.iter().zip(0..).map(|(candidate, i)| (candidate.cost, i)));
-        let by_cost = |a: &(Cost, u32), b: &(Cost, u32)| a.0.cmp(&b.0).then(a.1.cmp(&b.1));
+        let by_cost = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
         self.ranks.select_nth_unstable_by(left, by_cost);
         self.ranks.truncate(left);
         self.ranks.sort_unstable_by_key(|&(_, i)| i);

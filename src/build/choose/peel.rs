@@ -86,14 +86,13 @@ const BACK: usize = 1;
 const NO_PIECE: u32 = u32::MAX;
 
 impl Peeler {
-    /// Searches some places of a set for peelable pieces, and returns the pieces found, if any. All pieces of
+    /// Searches a set for peelable pieces, and returns the pieces found, if any. All pieces of
     /// the set must be packed. If there are more groups than `tuning.groups_per_box`, each group's pieces
     /// must be near one another (see [`arrange`]), or the boxes decide nothing.
     pub(super) fn search(
         &mut self,
         set: &Set<'_>,
         sketch: &PackedPieces,
-        places: impl Iterator<Item = usize>,
         tuning: &Tuning,
         watch: &Watch<'_>,
     ) -> Option<Peeled> {
@@ -104,7 +103,7 @@ impl Peeler {
         self.left.extend((0..groups).map(|group| sketch.lanes(group)));
         let (peeled, left) = (Peeled::default(), sketch.len());
         let mut search = Search { lists: self, set, sketch, watch, peeled, left };
-        search.pass(places);
+        search.pass();
         let peeled = search.peeled;
         (!peeled.layers.is_empty()).then_some(peeled)
     }
@@ -122,9 +121,9 @@ struct Search<'a, 'w> {
 }
 
 impl Search<'_, '_> {
-    /// Separates pieces in one pass over some places.
-    fn pass(&mut self, places: impl Iterator<Item = usize>) {
-        for p in places {
+    /// Separates pieces in one pass over the set.
+    fn pass(&mut self) {
+        for p in 0..self.sketch.len() {
             if self.left <= 1 {
                 break;
             }

@@ -163,6 +163,35 @@ impl PackedPieces {
         is_near
     }
 
+    /// The plane across an axis at a coordinate, in the coordinates of the packed pieces.
+    pub(super) fn axis_plane(&self, axis: usize, at: f64) -> PackedPlane {
+        let normal = std::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 });
+        PackedPlane { normal, offset: (at - self.middle[axis]) as f32 }
+    }
+
+    /// Compares the pieces of some groups with a plane. Bits of empty lanes mean nothing.
+    #[inline]
+    pub(super) fn for_each_reach(
+        &self,
+        plane: &PackedPlane,
+        groups: Range<usize>,
+        mut see: impl FnMut(usize, Reach),
+    ) {
+        let plane = Splat::new(plane, self.slack);
+        let tolerance = Vec4::splat(self.tolerance);
+        let mut start = groups.start.checked_sub(1).map_or(0, |before| self.ends[before] as usize);
+        for group in groups {
+            let end = self.ends[group] as usize;
+            let (low, high) = plane.extents(&self.rows[start..end]);
+            start = end;
+            let near = low.cmple(plane.above + tolerance).bitmask()
+                & high.cmpge(plane.below - tolerance).bitmask();
+            let (front, back) = (high.cmpgt(plane.above), low.cmplt(plane.below));
+            let [front, back] = [front, back].map(|lanes| lanes.bitmask() as u8);
+            see(group, Reach { front, back, near: near as u8 });
+        }
+    }
+
     /// Compares a group's pieces with a plane. Bits of empty lanes mean nothing.
     #[inline]
     pub(super) fn reach(&self, plane: &PackedPlane, group: usize) -> Reach {
@@ -262,11 +291,11 @@ impl Splat {
 }
 
 /// A set of one or more pieces to divide.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Set<'a> {
     pub(in crate::build) faces: &'a Faces,
     pub(in crate::build) pieces: &'a [Piece],
-    pub(super) arena: &'a [Vertex],
+    pub(in crate::build) arena: &'a [Vertex],
     /// The planes of all faces, if the planes were prepared in advance.
     pub(in crate::build) planes: &'a [PreparedPlane],
     /// The number of planes that separated the pieces from others.
@@ -275,8 +304,8 @@ pub(crate) struct Set<'a> {
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
     /// Along each axis, the smallest end and the largest start of a piece.
-    first_end: [f64; 3],
-    last_begin: [f64; 3],
+    pub(super) first_end: [f64; 3],
+    pub(super) last_begin: [f64; 3],
 }
 
 impl<'a> Set<'a> {
@@ -297,7 +326,12 @@ impl<'a> Set<'a> {
         Self { faces, pieces, arena, planes: &[], depth: 0, min, max, first_end, last_begin }
     }
 
-    pub(super) fn len(&self) -> usize {
+    /// The same set, with the planes of all faces.
+    pub(in crate::build) fn with(self, planes: &'a [PreparedPlane]) -> Self {
+        Self { planes, ..self }
+    }
+
+    pub(in crate::build) fn len(&self) -> usize {
         self.pieces.len()
     }
 

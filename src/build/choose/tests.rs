@@ -91,34 +91,6 @@ fn what_lies_in_one_plane_is_one_node() {
     }
 }
 
-/// The sides of a rotated prism. These sides are in convex position, and no free plane separates them.
-fn prism(sides: usize) -> Vec<[DVec3; 4]> {
-    let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
-    let corner = |i: usize, z: f64| {
-        let angle = std::f64::consts::TAU * i as f64 / sides as f64;
-        turn * DVec3::new(angle.cos(), angle.sin(), z)
-    };
-    (0..sides)
-        .map(|i| [corner(i, 0.0), corner(i + 1, 0.0), corner(i + 1, 3.0), corner(i, 3.0)])
-        .collect()
-}
-
-/// The pieces that were not tried stay in the set.
-#[test]
-fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
-    let tuning = Tuning { own_planes: 5, uneven: 2, reward: 0.0, ..Tuning::DEFAULT };
-    let watch = Watch::default();
-    for sides in 8..14 {
-        let fixture = Fixture::new(&prism(sides), 1e-9);
-        let rules = ChooseContext::new(&BuildOptions::DEFAULT, &tuning, &watch);
-        let mut chooser = Chooser::default();
-        let choice =
-            chooser.choose(&rules, &fixture.set(), false, &mut Division::default()).unwrap();
-        let Choice::Peel(peeled) = choice else { panic!("{sides} sides: {choice:?}") };
-        assert_eq!(peeled.layers().len(), tuning.own_planes, "{sides} sides");
-    }
-}
-
 #[test]
 fn a_sample_is_spread_over_the_set() {
     let fixture = Fixture::new(&triangles(&mut SplitMix64::new(1), 10, 0.1), 0.0);
@@ -131,12 +103,9 @@ fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> Plan
     let (fixture, watch) = (Fixture::new(polygons, 0.0), Watch::default());
     let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
     let rules = ChooseContext::new(&options, &Tuning::DEFAULT, &watch);
-    match Chooser::default()
-        .choose(&rules, &fixture.set(), false, &mut Division::default())
-        .unwrap()
-    {
+    match Chooser::default().choose(&rules, &fixture.set(), &mut Division::default()).unwrap() {
         Choice::Split(plane) => plane,
-        Choice::Peel(_) => panic!("own planes alone are chosen"),
+        choice => panic!("{choice:?}"),
     }
 }
 

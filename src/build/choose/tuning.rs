@@ -8,12 +8,28 @@ pub struct Tuning {
     /// `Auto` tries no other axis planes on such sets. Too large: fewer axis planes to choose from. Too
     /// small: time, because counting by bins takes longer than sorting.
     pub clean_below: usize,
-    /// A number of pieces. On sets of fewer pieces, more own planes are tried, and pieces that need no cut
-    /// are peeled off. Too large: more time and deeper trees for slightly fewer fragments. Too small: more
-    /// fragments on scans, whose surfaces no free plane follows.
+    /// A set of at most this many pieces is divided by a table (at most 256; see `table.rs`). Too large: time,
+    /// because a table has a bit for each pair of pieces. Too small: the planes above tables are chosen with
+    /// less care, so there are more fragments.
     pub small: usize,
-    /// The number of own planes tried in a small set, and the largest number tried by heuristics that only
-    /// score own planes. Too large: time. Too small: more fragments.
+    /// The number of axis planes of a table, along each axis. Too large: time. Too small: more fragments, if
+    /// walls are in the way of the pieces' own planes.
+    pub axis_planes: usize,
+    /// The weight of the planes that cut a piece: that piece's plane costs less, because a wall that is not
+    /// used early is cut again and again. Too large: depth is wasted on pieces that no used plane would cut.
+    /// Too small: large polygons are cut.
+    pub risk: f64,
+    /// The mean share of a table's pieces that a plane cuts, at which half of `risk` counts. If planes cut
+    /// less, how they divide the set matters more.
+    pub risk_at: f64,
+    /// The number of a table's planes that are compared by the cuts of the next planes too. Too large: time.
+    /// Too small: more fragments on scans.
+    pub pairs: usize,
+    /// The weight of a cut that may follow, if the cut of a piece by the plane itself counts 1. Too large or too
+    /// small: more fragments.
+    pub next_cuts: f64,
+    /// The largest number of own planes tried by heuristics that only score own planes. Too large: time. Too
+    /// small: more fragments.
     pub own_planes: usize,
     /// The number of own planes tried in a large set. Too large: time. Too small: more fragments.
     pub few_own_planes: usize,
@@ -37,8 +53,7 @@ pub struct Tuning {
     /// wasted on polygons that no plane would cut. Too small: large polygons are cut.
     pub reward: f64,
     /// The largest number of groups of four pieces per box of the peeling search. Too large: groups are
-    /// tested one by one. Too small: more boxes to build. In small sets (of fewer than `small` pieces) boxes
-    /// decide nothing, because the pieces of a group are not near one another.
+    /// tested one by one. Too small: more boxes to build.
     pub groups_per_box: usize,
     /// The constants for dividing small sets in less time; `None` in permanent trees, because orders of the
     /// resulting trees take a fifth longer.
@@ -50,6 +65,11 @@ impl Tuning {
     pub const DEFAULT: Self = Self {
         clean_below: 64,
         small: 256,
+        axis_planes: 8,
+        risk: 0.5,
+        risk_at: 0.2,
+        pairs: 4,
+        next_cuts: 0.05,
         own_planes: 96,
         few_own_planes: 16,
         one_sided_needed: 12,

@@ -2,34 +2,34 @@
 
 use glam::DVec3;
 
-use super::super::cost::{Cost, PricedPlane, work};
+use super::super::cost::work;
 use super::super::tests::{Fixture, triangles};
 use super::{Candidates, CostModel, Sample};
 use crate::build::choose::set::Set;
 use crate::build::choose::tuning::Tuning;
-use crate::exact::{PlaneKind, Side};
+use crate::exact::{PlaneId, PlaneKind, Side};
 use crate::random::SplitMix64;
 
 /// Every plane is compared with every piece.
 const ALL: Tuning =
     Tuning { own_planes: usize::MAX, first_sample: usize::MAX >> 1, ..Tuning::DEFAULT };
 
-fn best(set: &Set<'_>, tuning: &Tuning) -> PricedPlane {
+fn best(set: &Set<'_>, tuning: &Tuning) -> (PlaneId, f64) {
     let (mut sample, mut candidates) = (Sample::default(), Candidates::default());
     sample.sketch.reset(set);
     sample.sketch.extend(set, 0..set.len());
-    let terms = CostModel::small(set, tuning);
+    let terms = CostModel::of(set, tuning);
     candidates.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
-    candidates.best(set, &mut sample, &terms, tuning).unwrap()
+    candidates.best(set, &mut sample, &terms, tuning, f64::INFINITY).unwrap()
 }
 
 /// The face whose plane was found.
-fn piece(found: &PricedPlane) -> usize {
-    let PlaneKind::Face(face) = found.plane.kind() else { panic!("{found:?}") };
+fn piece(found: &(PlaneId, f64)) -> usize {
+    let PlaneKind::Face(face) = found.0.kind() else { panic!("{found:?}") };
     face as usize
 }
 
-fn cost(set: &Set<'_>, own: usize) -> Cost {
+fn cost(set: &Set<'_>, own: usize) -> f64 {
     let prepared = set.prepare(set.own_plane(own));
     let sides: Vec<_> = (0..set.len()).map(|piece| set.classify(&prepared, piece)).collect();
     let count = |side| sides.iter().filter(|&&other| other == side).count();
@@ -38,8 +38,7 @@ fn cost(set: &Set<'_>, own: usize) -> Cost {
     let mut shares = [0, 1, 2].map(|axis| (piece.max[axis] - piece.min[axis]) / set.size()[axis]);
     shares.sort_by(f64::total_cmp);
     let reward = Tuning::DEFAULT.reward * set.len() as f64 * shares[1] * shares[2];
-    let amount = work(count(Side::Front) + splits) + work(count(Side::Back) + splits) - reward;
-    Cost { cuts: splits > 0, amount }
+    work(count(Side::Front) + splits) + work(count(Side::Back) + splits) - reward
 }
 
 #[test]
@@ -51,10 +50,9 @@ fn the_least_cost_wins_where_all_are_compared_with_all() {
             let set = fixture.set();
             let found = best(&set, &ALL);
             let costs: Vec<_> = (0..n).map(|own| cost(&set, own)).collect();
-            let least = costs.iter().copied().min_by(Cost::cmp).unwrap();
-            assert!((found.cost.amount - least.amount).abs() < 1e-9, "{n} of {size}: {found:?}");
-            assert_eq!(found.cost.cuts, least.cuts, "{n} of {size}");
-            assert!((costs[piece(&found)].amount - least.amount).abs() < 1e-9, "{n} of {size}");
+            let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+            assert!((found.1 - least).abs() < 1e-9, "{n} of {size}: {found:?}");
+            assert!((costs[piece(&found)] - least).abs() < 1e-9, "{n} of {size}");
         }
     }
 }
@@ -79,8 +77,8 @@ fn halving_finds_a_good_plane() {
         let set = fixture.set();
         let (found, least) = (best(&set, &Tuning::DEFAULT), best(&set, &ALL));
         let exact = cost(&set, piece(&found));
-        assert!((found.cost.amount - exact.amount).abs() < 1e-9, "compared with all in the end");
-        assert!(exact.amount <= 1.2 * least.cost.amount, "{n}: {exact:?}, {least:?}");
+        assert!((found.1 - exact).abs() < 1e-9, "compared with all in the end");
+        assert!(exact <= 1.2 * least.1, "{n}: {exact:?}, {least:?}");
     }
 }
 
@@ -89,7 +87,7 @@ fn begun(set: &Set<'_>, tuning: &Tuning) -> Candidates {
     let (mut sample, mut candidates) = (Sample::default(), Candidates::default());
     sample.sketch.reset(set);
     sample.sketch.extend(set, 0..set.len());
-    let terms = CostModel::small(set, tuning);
+    let terms = CostModel::of(set, tuning);
     candidates.begin(set, &mut sample, tuning.own_planes, &terms, tuning);
     candidates
 }
@@ -102,7 +100,7 @@ fn halving_keeps_the_best_in_their_order() {
         let mut candidates = begun(&fixture.set(), &Tuning::DEFAULT);
         let field = candidates.field.clone();
         let mut best: Vec<usize> = (0..field.len()).collect();
-        best.sort_by(|&a, &b| field[a].cost.cmp(&field[b].cost));
+        best.sort_by(|&a, &b| field[a].cost.total_cmp(&field[b].cost));
         best.truncate(field.len().div_ceil(4));
         best.sort_unstable();
         candidates.halve(4);

@@ -15,7 +15,7 @@ fn peel(set: &Set<'_>, tuning: &Tuning) -> Option<Peeled> {
     let mut sketch = PackedPieces::default();
     sketch.reset(set);
     sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());
-    Peeler::default().search(set, &sketch, 0..set.len(), tuning, &Watch::default())
+    Peeler::default().search(set, &sketch, tuning, &Watch::default())
 }
 
 /// Asserts that each layer has all remaining pieces on its declared side, and that its own pieces are all
@@ -208,7 +208,7 @@ fn nothing_is_left_of_the_search_before() {
         sketch.reset(&set);
         let order = arrange(&set, tuning.groups_per_box);
         sketch.extend(&set, order.iter().copied());
-        let peeled = peeler.search(&set, &sketch, 0..set.len(), tuning, &Watch::default());
+        let peeled = peeler.search(&set, &sketch, tuning, &Watch::default());
         let left = assert_layers("one after the other", &set, peeled.as_ref());
         assert_eq!(left, brute_force(&set, &order));
     }

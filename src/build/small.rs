@@ -1,0 +1,199 @@
+//! Builds the subtree of a small set from a table of the sides of all pieces at all planes.
+
+use super::choose::{ChooseContext, CutBy, Mask, Part, Set, Sides, Table};
+use super::piece::Piece;
+use super::subtree::{Builder, CUT, Shared};
+use crate::error::Error;
+use crate::exact::PlaneId;
+use crate::tree::parts::{RawChild, RawNode};
+
+/// A part of the set that is still to be divided.
+#[derive(Debug)]
+struct Pending {
+    part: Part,
+    /// The number of nodes above the part.
+    depth: usize,
+    /// The length of the arena that the part needs.
+    arena: usize,
+    /// The first of the pieces that were cut to make the part.
+    cut: usize,
+}
+
+/// The table and the lists of a small set, reused.
+#[derive(Debug, Default)]
+pub(super) struct SmallSet {
+    table: Table,
+    /// A stack of the parts still to be divided, the next part on top.
+    pending: Vec<Pending>,
+    /// The cut pieces of pending parts: the place in the table, the part of the piece behind the plane, and the
+    /// planes that cut the whole piece.
+    cut: Vec<(usize, Piece, CutBy)>,
+}
+
+impl SmallSet {
+    /// The best plane of a set, of which a table is filled for this purpose.
+    pub(super) fn plane(&mut self, rules: &ChooseContext<'_>, set: &Set<'_>) -> PlaneId {
+        let mut part = self.table.fill(set, rules.tuning);
+        let row = self.table.best(&mut part, rules.tuning);
+        self.table.plane(row).id()
+    }
+}
+
+impl Builder {
+    /// Builds the subtree of the set on top of the stack, and removes the set.
+    #[inline(never)]
+    pub(super) fn build_small(
+        &mut self,
+        shared: &Shared<'_>,
+        start: usize,
+        depth: usize,
+    ) -> Result<(), Error> {
+        let set = Set::new(shared.faces, &self.pieces[start..], &self.arena).with(shared.planes);
+        let work = set.len() * set.len() / 8;
+        shared.rules.watch.work(work)?;
+        let mut next = Some((self.small.table.fill(&set, shared.rules.tuning), depth));
+        self.pieces.truncate(start);
+        self.small.pending.clear();
+        self.small.cut.clear();
+        loop {
+            let (mut part, depth) = match next {
+                Some(next) => next,
+                None => match self.resume(shared) {
+                    Some(resumed) => resumed,
+                    None => return Ok(()),
+                },
+            };
+            let count = part.pieces.count();
+            shared.rules.watch.work(count * count / 64)?;
+            let row = self.small.table.best(&mut part, shared.rules.tuning);
+            let Sides { front, back, .. } = self.small.table.sides(row, &part);
+            if front.is_empty() || back.is_empty() {
+                let (rest, layers) = self.peel(shared, &part, depth)?;
+                if layers > 0 {
+                    next = (rest.pieces.count() > 1).then_some((rest, depth + layers));
+                    continue;
+                }
+            }
+            let set = shared.bare_set(&self.arena);
+            let row = self.small.table.settled(&shared.rules, &set, row, &part)?;
+            let (front, back) = self.divide_small(shared, row, &part, depth)?;
+            self.small.pending.extend(back);
+            next = front.map(|front| (front, depth + 1));
+        }
+    }
+
+    /// Takes the next part from the stack, and puts the pieces that were cut to make the part into the table.
+    fn resume(&mut self, shared: &Shared<'_>) -> Option<(Part, usize)> {
+        let SmallSet { table, pending, cut } = &mut self.small;
+        let Pending { part, depth, arena, cut: first } = pending.pop()?;
+        self.arena.truncate(arena);
+        let set = shared.bare_set(&self.arena);
+        for (place, piece, before) in cut.drain(first..) {
+            table.replace(&set, (place, piece), before, &part);
+        }
+        Some((part, depth))
+    }
+
+    /// Separates pieces whose planes have all other pieces of a part on one side, in one pass. Returns the
+    /// remaining pieces and the number of nodes.
+    ///
+    /// Separating such a piece first never adds a fragment: a tree of the whole set, without the piece and its
+    /// plane, is a tree of the remaining pieces with no more fragments.
+    fn peel(
+        &mut self,
+        shared: &Shared<'_>,
+        part: &Part,
+        depth: usize,
+    ) -> Result<(Part, usize), Error> {
+        let (mut rest, mut layers) = (*part, 0);
+        for row in part.pieces.iter() {
+            if rest.pieces.count() < 2 {
+                break;
+            }
+            let table = &mut self.small.table;
+            let Sides { front, back, .. } = table.sides(row, &rest);
+            if !rest.pieces.contains(row) || !front.is_empty() && !back.is_empty() {
+                continue;
+            }
+            let set = shared.bare_set(&self.arena);
+            if table.rival(&shared.rules, &set, row, &rest, &[])?.is_some() {
+                continue;
+            }
+            self.divide_small(shared, row, &rest, depth + layers)?;
+            rest = rest.of(front | back);
+            layers += 1;
+        }
+        Ok((rest, layers))
+    }
+
+    /// Writes the node of a part that the plane of a row divides. Returns the parts in front of the plane and
+    /// behind it, unless they are leaves.
+    fn divide_small(
+        &mut self,
+        shared: &Shared<'_>,
+        row: usize,
+        part: &Part,
+        depth: usize,
+    ) -> Result<(Option<Part>, Option<Pending>), Error> {
+        let depth = depth + 1;
+        shared.budget.check_depth(depth)?;
+        let Sides { front, back, on } = self.small.table.sides(row, part);
+        let plane = *self.small.table.plane(row);
+        let first = self.small.cut.len();
+        let cuts = (front & back).count();
+        if cuts > 0 {
+            // The budget is checked before the cuts, so that a set with too many pieces is stopped in time.
+            shared.budget.count(cuts)?;
+            shared.rules.watch.work(cuts * CUT)?;
+            for place in (front & back).iter() {
+                let SmallSet { table, cut, .. } = &mut self.small;
+                let whole = table.pieces[place];
+                let parts = self.splitter.cut(shared.faces, &plane, &whole, &mut self.arena)?;
+                cut.push((place, parts[1], table.cut_by(place, part)));
+                table.pieces[place] = parts[0];
+            }
+            self.output.parts.cuts += cuts;
+        }
+        self.own.clear();
+        self.own.extend(on.iter().map(|place| self.small.table.pieces[place]));
+        let own = self.store_own(shared)?;
+        let child = |pieces: Mask| match pieces.count() {
+            count @ 0..=1 => RawChild::Leaf(count as u32),
+            _ => RawChild::Node,
+        };
+        let node = RawNode { plane: plane.id(), own, front: child(front), back: child(back) };
+        // Leaves are stored directly after the node's own fragments and front before back.
+        if node.front == RawChild::Leaf(1)
+            && let Some(place) = front.iter().next()
+        {
+            let piece = self.small.table.pieces[place];
+            self.store(shared, &piece)?;
+        }
+        if node.back == RawChild::Leaf(1)
+            && let Some(place) = back.iter().next()
+        {
+            let is_cut = front.contains(place);
+            let piece =
+                if is_cut { self.small.cut[first].1 } else { self.small.table.pieces[place] };
+            self.store(shared, &piece)?;
+        }
+        self.output.push_node(node)?;
+        let SmallSet { table, cut, .. } = &mut self.small;
+        let front = (node.front == RawChild::Node).then(|| part.of(front));
+        if let Some(part) = &front {
+            let set = shared.bare_set(&self.arena);
+            for &(place, _, before) in &cut[first..] {
+                let piece = table.pieces[place];
+                table.replace(&set, (place, piece), before, part);
+            }
+        }
+        let back = (node.back == RawChild::Node).then(|| {
+            let (part, arena) = (part.of(back), self.arena.len());
+            Pending { part, depth, arena, cut: first }
+        });
+        if back.is_none() {
+            cut.truncate(first);
+        }
+        Ok((front, back))
+    }
+}
