@@ -21,6 +21,8 @@ pub(super) struct Auto {
     sample: Sample,
     candidates: Candidates,
     peeler: Peeler,
+    /// The numbers of a large set's pieces, sorted for peeling.
+    arranged: Vec<usize>,
 }
 
 impl Auto {
@@ -103,9 +105,9 @@ impl Auto {
         if self.candidates.one_sided().len() >= tuning.one_sided_needed {
             let Sample { sketch, .. } = &mut self.sample;
             sketch.clear();
-            let arranged = arrange(set, tuning.groups_per_box);
+            arrange(set, tuning.groups_per_box, &mut self.arranged);
             watch.work(set.len())?;
-            for part in arranged.chunks(PIECES_AT_ONCE) {
+            for part in self.arranged.chunks(PIECES_AT_ONCE) {
                 sketch.extend(set, part.iter().copied());
                 watch.work(part.len())?;
             }

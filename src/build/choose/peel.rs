@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use smallvec::SmallVec;
+use smallvec::{SmallVec, smallvec};
 
 use super::coplanar::larger;
 use super::set::{LANES, PackedBox, PackedPieces, PackedPlane, Reach, Set};
@@ -258,16 +258,17 @@ impl Search<'_, '_> {
     }
 }
 
-/// Sorts the pieces of a large set so that the pieces of each group, and of each range of groups, are near
+/// Writes the numbers of a set's pieces, sorted so that the pieces of each group, and of each range of groups, are near
 /// one another. Repeatedly divides the pieces in half along the longest side of their box.
-pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) -> Vec<usize> {
-    let mut order = (0..set.len()).collect::<Vec<_>>();
+pub(super) fn arrange(set: &Set<'_>, groups_per_box: usize, order: &mut Vec<usize>) {
+    order.clear();
+    order.extend(0..set.len());
     let middle = |piece: usize, axis: usize| {
         let piece = &set.pieces[piece];
         piece.min[axis] + piece.max[axis]
     };
     let all = 0..set.len().div_ceil(LANES);
-    let mut stack = vec![all];
+    let mut stack: SmallVec<[_; 32]> = smallvec![all];
     while let Some(groups) = stack.pop() {
         let Some([low, high]) = halves(&groups, groups_per_box) else { continue };
         let part = &mut order[groups.start * LANES..set.len().min(groups.end * LANES)];
@@ -285,7 +286,6 @@ pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) ->
         });
         stack.extend([low, high]);
     }
-    order
 }
 
 /// A balanced tree of boxes around the groups of packed pieces: the children of node i are nodes 2i + 1 and

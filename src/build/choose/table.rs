@@ -213,6 +213,8 @@ pub(in crate::build) struct Table {
     /// A box around each block of packed pieces.
     boxes: Vec<PackedBox>,
     priced: Vec<Priced>,
+    /// The numbers of the set's pieces in the order of the table.
+    order: Vec<usize>,
     /// The starts and the ends of the pieces along an axis.
     ends: [Vec<f64>; 2],
     /// The pieces on a plane, and those beside it.
@@ -233,8 +235,8 @@ impl Table {
         let mut pieces = take(&mut self.pieces);
         pieces.clear();
         // Pieces near one another are in one block.
-        let order = arrange(set, BLOCK);
-        pieces.extend(order.iter().map(|&piece| set.pieces[piece]));
+        arrange(set, BLOCK, &mut self.order);
+        pieces.extend(self.order.iter().map(|&piece| set.pieces[piece]));
         let set = &Set { pieces: &pieces, ..*set };
         self.packed.reset(set);
         self.packed.extend(set, 0..n);
@@ -544,3 +546,6 @@ impl Table {
         self.rows[piece].cut_by = still;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -16,7 +16,7 @@ use crate::tree::BspTree;
 pub(super) struct Fixture {
     pub(super) faces: Faces,
     pub(super) pieces: Vec<Piece>,
-    arena: Vec<Vertex>,
+    pub(super) arena: Vec<Vertex>,
 }
 
 impl Fixture {

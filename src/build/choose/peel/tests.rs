@@ -11,10 +11,16 @@ use crate::exact::Side;
 use crate::progress::Watch;
 use crate::random::SplitMix64;
 
+fn arranged(set: &Set<'_>, groups_per_box: usize) -> Vec<usize> {
+    let mut order = vec![];
+    arrange(set, groups_per_box, &mut order);
+    order
+}
+
 fn peel(set: &Set<'_>, tuning: &Tuning) -> Option<Peeled> {
     let mut sketch = PackedPieces::default();
     sketch.reset(set);
-    sketch.extend(set, arrange(set, tuning.groups_per_box).into_iter());
+    sketch.extend(set, arranged(set, tuning.groups_per_box).into_iter());
     Peeler::default().search(set, &sketch, tuning, &Watch::default())
 }
 
@@ -62,7 +68,7 @@ fn assert_like_brute_force(name: &str, fixture: &Fixture) -> usize {
     let set = fixture.set();
     let mut taken = 0;
     for groups_per_box in [1, 2, 64] {
-        let expected = brute_force(&set, &arrange(&set, groups_per_box));
+        let expected = brute_force(&set, &arranged(&set, groups_per_box));
         let name = format!("{name}, boxes of {groups_per_box}");
         let peeled = peel(&set, &Tuning { groups_per_box, ..Tuning::DEFAULT });
         let left = assert_layers(&name, &set, peeled.as_ref());
@@ -206,7 +212,7 @@ fn nothing_is_left_of_the_search_before() {
         fixture.pieces = pieces;
         let (set, mut sketch) = (fixture.set(), PackedPieces::default());
         sketch.reset(&set);
-        let order = arrange(&set, tuning.groups_per_box);
+        let order = arranged(&set, tuning.groups_per_box);
         sketch.extend(&set, order.iter().copied());
         let peeled = peeler.search(&set, &sketch, tuning, &Watch::default());
         let left = assert_layers("one after the other", &set, peeled.as_ref());

@@ -1,0 +1,189 @@
+//! Tables against classification.
+
+use glam::DVec3;
+
+use super::super::cost::{Cost, Counts, work};
+use super::super::set::Set;
+use super::super::tests::{Fixture, grid, triangles};
+use super::{Mask, Part, Sides, Table};
+use crate::build::choose::tuning::Tuning;
+use crate::build::piece::{Piece, Splitter};
+use crate::exact::{PlaneId, Side};
+use crate::random::SplitMix64;
+
+/// Sets of every kind: apart, crossing, connected, and so flat that only integers decide.
+fn fixtures() -> Vec<Fixture> {
+    let mut random = SplitMix64::new(1);
+    let mut fixtures = vec![];
+    for tolerance in [0.0, 1e-9, 1e-2] {
+        for (count, size) in [(2, 1.0), (3, 2.0), (17, 0.5), (64, 0.3), (65, 0.02), (256, 0.05)] {
+            fixtures.push(Fixture::new(&triangles(&mut random, count, size), tolerance));
+        }
+        for height in [1e-1, 1e-8, 1e-13] {
+            let rough = grid(8, |_| height * random.point(-1.0, 1.0).x);
+            fixtures.push(Fixture::new(&rough, tolerance));
+        }
+    }
+    fixtures
+}
+
+/// The whole sets, and the halves of sets that were cut.
+fn for_each_set(mut see: impl FnMut(&Fixture)) {
+    for mut fixture in fixtures() {
+        see(&fixture);
+        for (axis, side) in [(0, Side::Front), (1, Side::Back), (2, Side::Front)] {
+            fixture.keep(PlaneId::axis(axis, 0), side);
+            if fixture.pieces.is_empty() {
+                break;
+            }
+            see(&fixture);
+        }
+    }
+}
+
+/// Asserts that all sides of a part are those of classification. Returns how often each side was found.
+fn assert_sides(table: &Table, set: &Set<'_>, part: &Part) -> [usize; 4] {
+    let mut found = [0; 4];
+    let axes = super::bits(part.axes.into()).map(|axis| table.len() + axis);
+    for row in part.pieces.iter().chain(axes) {
+        let Sides { front, back, on } = table.sides(row, part);
+        assert_eq!(front | back | on, part.pieces);
+        for piece in part.pieces.iter() {
+            let expected = table.pieces[piece].side(set.faces, table.plane(row), set.arena);
+            let side = match (front.contains(piece), back.contains(piece)) {
+                (true, true) => Side::Spanning,
+                (true, false) => Side::Front,
+                (false, true) => Side::Back,
+                (false, false) => Side::Coplanar,
+            };
+            assert_eq!(side, expected, "{piece} at {row} of {}", set.len());
+            found[side as usize] += 1;
+            if row < table.len() {
+                let is_cut = table.rows[piece].cut_by.contains(row);
+                assert_eq!(is_cut, side == Side::Spanning, "{piece} at {row}");
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn a_table_has_the_sides_that_classification_finds() {
+    let (mut table, mut found) = (Table::default(), [0; 4]);
+    for_each_set(|fixture| {
+        let set = fixture.set();
+        let part = table.fill(&set, &Tuning::DEFAULT);
+        assert_eq!(part.pieces.count(), set.len());
+        let mut faces: Vec<u32> = table.pieces.iter().map(|piece| piece.face).collect();
+        faces.sort_unstable();
+        assert!(faces.iter().eq(set.pieces.iter().map(|piece| &piece.face)));
+        let sides = assert_sides(&table, &set, &part);
+        (0..4).for_each(|side| found[side] += sides[side]);
+    });
+    assert!(found.iter().all(|&count| count > 10_000), "{found:?}");
+}
+
+/// Divides sets as the builder does, by any planes, down to single pieces.
+#[test]
+fn after_every_cut_the_table_has_the_sides_of_the_parts() {
+    let (mut random, mut splitter) = (SplitMix64::new(2), Splitter::default());
+    let (mut table, mut cuts, mut parts) = (Table::default(), 0, 0);
+    for_each_set(|fixture| {
+        let mut arena = fixture.arena.clone();
+        let whole = Set::new(&fixture.faces, &fixture.pieces, &arena);
+        if whole.len() > 100 {
+            return;
+        }
+        let mut stack = vec![(table.fill(&whole, &Tuning::DEFAULT), vec![])];
+        while let Some((mut part, cut)) = stack.pop() {
+            let set = Set::new(&fixture.faces, &[], &arena);
+            for (place, piece, before) in cut {
+                table.replace(&set, (place, piece), before, &part);
+            }
+            parts += 1;
+            assert_sides(&table, &set, &part);
+            let best = table.best(&mut part, &Tuning::DEFAULT);
+            let any = part.pieces.iter().nth(random.next() as usize % part.pieces.count());
+            let row = if random.next() % 2 == 0 { best } else { any.unwrap() };
+            let (Sides { front, back, .. }, plane) = (table.sides(row, &part), *table.plane(row));
+            let mut of_front: Vec<(usize, Piece, _)> = vec![];
+            let mut of_back = vec![];
+            for place in (front & back).iter() {
+                let piece = table.pieces[place];
+                let [a, b] = splitter.cut(&fixture.faces, &plane, &piece, &mut arena).unwrap();
+                let before = table.cut_by(place, &part);
+                of_front.push((place, a, before));
+                of_back.push((place, b, before));
+                cuts += 1;
+            }
+            for (side, cut) in [(back, of_back), (front, of_front)] {
+                if side.count() > 1 {
+                    stack.push((part.of(side), cut));
+                }
+            }
+        }
+    });
+    assert!(cuts > 1000 && parts > 1500, "{cuts} cuts, {parts} parts");
+}
+
+/// Without rewards and with no look at the next planes, the best row is that of the least cost.
+#[test]
+fn the_best_row_costs_least() {
+    let tuning = Tuning { risk: 0.0, pairs: 1, ..Tuning::DEFAULT };
+    let mut table = Table::default();
+    let mut of_axes = 0;
+    for_each_set(|fixture| {
+        let set = fixture.set();
+        let mut part = table.fill(&set, &tuning);
+        let cost = |row: usize| {
+            let Sides { front, back, .. } = table.sides(row, &part);
+            let splits = (front & back).count() as u32;
+            let [front, back] = [front, back].map(|side| side.count() as u32 - splits);
+            Cost::of(&Counts { front, back, splits })
+        };
+        let divides = |row: &usize| {
+            let Sides { front, back, .. } = table.sides(*row, &part);
+            *row < set.len() || front != part.pieces && back != part.pieces
+        };
+        let least = (0..table.rows.len()).filter(divides).map(cost).min_by(Cost::cmp).unwrap();
+        let best = table.best(&mut part, &tuning);
+        of_axes += usize::from(best >= set.len());
+        let Sides { front, back, .. } = table.sides(best, &part);
+        assert_eq!((!(front & back).is_empty(), work(front.count()) + work(back.count())), {
+            (least.cuts, least.amount)
+        });
+    });
+    assert!(of_axes > 1, "{of_axes}");
+}
+
+/// A wall that every other plane cuts is used before its cheaper neighbours.
+#[test]
+fn a_piece_that_many_planes_cut_is_used_early() {
+    let mut random = SplitMix64::new(3);
+    let mut polygons = triangles(&mut random, 40, 0.7);
+    polygons.push([DVec3::new(-3.0, 0.01, -3.0), DVec3::new(3.0, 0.02, -3.0), DVec3::Z * 3.0]);
+    let (fixture, mut table) = (Fixture::new(&polygons, 0.0), Table::default());
+    let wall = |risk: f64| {
+        let tuning = Tuning { risk, pairs: 1, axis_planes: 0, ..Tuning::DEFAULT };
+        let mut part = table.fill(&fixture.set(), &tuning);
+        let best = table.best(&mut part, &tuning);
+        table.pieces[best].face == 40
+    };
+    assert_eq!([0.0, 4.0].map(wall), [false, true]);
+}
+
+#[test]
+fn masks_are_sets_of_places() {
+    let mut random = SplitMix64::new(4);
+    for n in [0, 1, 63, 64, 65, 128, 255, 256] {
+        let first = Mask::first(n);
+        assert!(first.iter().eq(0..n) && first.count() == n && first.is_empty() == (n == 0));
+        let mut some = Mask::default();
+        let chosen: Vec<usize> = (0..n).filter(|_| random.next() % 5 == 0).collect();
+        chosen.iter().for_each(|&place| some.set(place, true));
+        assert!(some.iter().eq(chosen.iter().copied()));
+        assert_eq!((first & !some).count(), n - chosen.len());
+        let words = some.words();
+        assert!(chosen.iter().all(|place| words.contains(&(place / 64))), "{words:?}");
+    }
+}
