@@ -53,12 +53,16 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 31] = changes! {
+const CHANGES: [Change; 42] = changes! {
     frames: "as in frames" => Some(FrameTuning::FRAMES),
         "clean planes alone" => Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
-    small: "0" => 0, "½" => 128, "×2" => 512;
-    own_planes: "¼" => 24, "½" => 48, "×2" => 192;
+    small: "0" => 0, "¼" => 64, "½" => 128;
+    axis_planes: "0" => 0, "½" => 4, "×5/4" => 10;
+    risk: "0" => 0.0, "½" => 0.25, "×2" => 1.0;
+    risk_at: "½" => 0.1, "×2" => 0.4;
+    pairs: "1" => 1, "½" => 2, "×2" => 8;
+    next_cuts: "0" => 0.0, "½" => 0.025, "×2" => 0.1;
     few_own_planes: "0" => 0, "½" => 8, "×2" => 32;
     one_sided_needed: "never" => MOST, "½" => 6, "×4/3" => 16;
     uneven: "never" => 1, "½" => 2, "×2" => 8;

@@ -1,7 +1,8 @@
 //! Building a tree.
 //!
 //! `driver` contains the steps from polygons to a tree. `subtree` divides a set of pieces by the planes that
-//! `choose` finds. `jobs` spreads large sets over threads and joins the results.
+//! `choose` finds; `small` divides all of a small set by a table. `jobs` spreads large sets over threads and
+//! joins the results.
 
 pub(crate) mod choose;
 pub(crate) mod driver;

@@ -211,23 +211,25 @@ pub enum Heuristic {
     /// used if all polygons of the set lie in one plane, or if no free plane separates any polygons.
     FreePlanes,
     /// The plane with the lowest cost, among free planes and polygons' planes. This heuristic is the default,
-    /// because it makes the fewest fragments on most scenes. The cost is the library's own. Polygons' planes
-    /// are compared by successive halving (Karnin, Koren and Somekh, “Almost optimal exploration in
-    /// multi-armed bandits”, 2013).
+    /// because it makes the fewest fragments on most scenes. The cost is the library's own: it estimates the
+    /// remaining work, n^1.25 for n polygons in front, plus n^1.25 for n polygons behind. A polygon that the
+    /// plane cuts counts on both sides.
     ///
-    /// The candidates are free planes and the planes of a sample of the polygons. The cost of a plane
-    /// estimates the remaining work: n^1.25 for n polygons in front, plus n^1.25 for n polygons behind. A
-    /// polygon that the plane cuts counts on both sides. The plane of a large polygon gets a reward, because
-    /// a wall or floor that is not used early is cut repeatedly.
+    /// A free plane that cuts nothing has priority. In a set of up to 256 polygons, the sides of all polygons
+    /// at all planes are then computed once, in O(n²) time and memory of fixed size, and all planes of the
+    /// set's subtree are chosen among the polygons' own planes and at most 24 free planes. Any plane without
+    /// cuts has priority there over any plane with cuts. A plane costs less if many planes cut its own
+    /// polygon, because a wall or floor that is not used early is cut repeatedly. If few planes cut few
+    /// polygons, those of lowest cost are compared by the cuts of the next planes too. If every plane without
+    /// cuts separates a single polygon at the boundary of the set, as in a convex body, one pass separates all
+    /// these polygons one after the other.
     ///
-    /// A free plane that cuts nothing has priority; otherwise the plane with the lowest cost is used. In sets
-    /// of up to 255 polygons, any plane without cuts has priority over any plane with cuts. In sets of fewer
-    /// than 64 polygons, no free plane that cuts is tried. If every plane without cuts separates a single
-    /// polygon at the boundary of the set, as in a convex body, one search separates all these polygons one
-    /// after the other.
+    /// In a larger set, the candidates are free planes and the planes of a sample of the polygons, which are
+    /// compared by successive halving (Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed
+    /// bandits”, 2013). The plane of a large polygon gets a reward.
     ///
     /// A [`FrameBuilder`](crate::FrameBuilder) tries polygons' planes first, which takes less time: four
-    /// planes in sets of up to 255 polygons. A `FrameBuilder` accepts a plane that cuts nothing and divides
+    /// planes in sets of up to 256 polygons. A `FrameBuilder` accepts a plane that cuts nothing and divides
     /// the set evenly, or a plane that cuts only one or two polygons, which cross the plane's own polygon.
     #[default]
     Auto,

@@ -1,11 +1,12 @@
 //! Chooses the plane that divides a set of pieces.
 //!
 //! All choices go through `Chooser::choose`. `given` is the caller's function, which has priority. `auto` is
-//! the default heuristic; `own` contains the heuristics that only try the pieces' own planes, and compares
-//! these planes. `axis_planes` finds planes perpendicular to the axes. `frame_planes` finds a good enough own
-//! plane for a small set in frames. `coplanar` keeps coplanar pieces together. `peel` finds pieces that planes at the boundary of a set separate without
-//! a cut. `cost` compares planes. `tuning` contains the constants, and `set` contains a set's pieces, exact
-//! and rounded.
+//! the default heuristic; `table` holds the sides of all pieces of a small set at all planes. `own` contains
+//! the heuristics that only try the pieces' own planes, and compares these planes. `axis_planes` finds planes
+//! perpendicular to the axes. `frame_planes` finds a good enough own plane for a small set in frames.
+//! `coplanar` keeps coplanar pieces together. `peel` finds pieces that planes at the boundary of a large set
+//! separate without a cut. `cost` compares planes. `tuning` contains the constants, and `set` contains a set's
+//! pieces, exact and rounded.
 
 mod auto;
 mod axis_planes;

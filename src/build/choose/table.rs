@@ -476,9 +476,6 @@ impl Table {
     ) -> Result<Option<usize>, Error> {
         let Sides { front, back, on } = self.sides(row, part);
         let beside = self.rows[row].near & (front | back);
-        if on.is_empty() || beside.is_empty() {
-            return Ok(None);
-        }
         if !self.are_paired(on, beside) {
             return Ok(None);
         }
@@ -496,19 +493,12 @@ impl Table {
 
     /// Whether some piece on a plane and some piece beside it are coplanar: the plane of one contains the other.
     fn are_paired(&self, on: Mask, beside: Mask) -> bool {
-        for piece in beside.iter() {
+        let has_some_of = |piece: usize, others: Mask| {
             let Row { front, back, .. } = self.rows[piece];
-            if !(on & !front & !back).is_empty() {
-                return true;
-            }
-        }
-        for piece in on.iter() {
-            let Row { front, back, .. } = self.rows[piece];
-            if !(beside & !front & !back).is_empty() {
-                return true;
-            }
-        }
-        false
+            !(others & !front & !back).is_empty()
+        };
+        beside.iter().any(|piece| has_some_of(piece, on))
+            || on.iter().any(|piece| has_some_of(piece, beside))
     }
 
     /// The planes that cut a piece.

@@ -20,7 +20,7 @@ pub struct Tuning {
     /// Too small: large polygons are cut.
     pub risk: f64,
     /// The mean share of a table's pieces that a plane cuts, at which half of `risk` counts. If planes cut
-    /// less, how they divide the set matters more.
+    /// less, how they divide the set matters more, and so do the cuts of the next planes (`pairs`).
     pub risk_at: f64,
     /// The number of a table's planes that are compared by the cuts of the next planes too. Too large: time.
     /// Too small: more fragments on scans.
