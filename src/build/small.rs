@@ -4,7 +4,7 @@ use super::choose::{ChooseContext, CutBy, Mask, Part, Set, Sides, Table};
 use super::piece::Piece;
 use super::subtree::{Builder, CUT, Shared};
 use crate::error::Error;
-use crate::exact::PlaneId;
+use crate::exact::{PlaneId, PreparedPlane};
 use crate::tree::parts::{RawChild, RawNode};
 
 /// A part of the set that is still to be divided.
@@ -75,8 +75,17 @@ impl Builder {
                 }
             }
             let set = shared.bare_set(&self.arena);
-            let row = self.small.table.settled(&shared.rules, &set, row, &part)?;
-            let (front, back) = self.divide_small(shared, row, &part, depth)?;
+            let table = &mut self.small.table;
+            let is_cut = !(front & back).is_empty();
+            let gap = if is_cut { table.gap(&shared.rules, &set, &part)? } else { None };
+            let (plane, sides) = match gap {
+                Some(gap) => gap,
+                None => {
+                    let row = table.settled(&shared.rules, &set, row, &part)?;
+                    (*table.plane(row), table.sides(row, &part))
+                }
+            };
+            let (front, back) = self.divide_small(shared, (&plane, sides), &part, depth)?;
             self.small.pending.extend(back);
             next = front.map(|front| (front, depth + 1));
         }
@@ -119,26 +128,25 @@ impl Builder {
             if table.rival(&shared.rules, &set, row, &rest, &[])?.is_some() {
                 continue;
             }
-            self.divide_small(shared, row, &rest, depth + layers)?;
+            let (plane, sides) = (*table.plane(row), table.sides(row, &rest));
+            self.divide_small(shared, (&plane, sides), &rest, depth + layers)?;
             rest = rest.of(front | back);
             layers += 1;
         }
         Ok((rest, layers))
     }
 
-    /// Writes the node of a part that the plane of a row divides. Returns the parts in front of the plane and
+    /// Writes the node of a part that a plane divides. Returns the parts in front of the plane and
     /// behind it, unless they are leaves.
     fn divide_small(
         &mut self,
         shared: &Shared<'_>,
-        row: usize,
+        (plane, Sides { front, back, on }): (&PreparedPlane, Sides),
         part: &Part,
         depth: usize,
     ) -> Result<(Option<Part>, Option<Pending>), Error> {
         let depth = depth + 1;
         shared.budget.check_depth(depth)?;
-        let Sides { front, back, on } = self.small.table.sides(row, part);
-        let plane = *self.small.table.plane(row);
         let first = self.small.cut.len();
         let cuts = (front & back).count();
         if cuts > 0 {
@@ -148,7 +156,7 @@ impl Builder {
             for place in (front & back).iter() {
                 let SmallSet { table, cut, .. } = &mut self.small;
                 let whole = table.pieces[place];
-                let parts = self.splitter.cut(shared.faces, &plane, &whole, &mut self.arena)?;
+                let parts = self.splitter.cut(shared.faces, plane, &whole, &mut self.arena)?;
                 cut.push((place, parts[1], table.cut_by(place, part)));
                 table.pieces[place] = parts[0];
             }

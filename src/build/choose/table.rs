@@ -11,6 +11,7 @@ use std::ops::{BitAnd, BitOr, Not, Range};
 use smallvec::SmallVec;
 
 use super::ChooseContext;
+use super::axis_planes::FreePlanes;
 use super::coplanar::{MOST_PLANES, larger};
 use super::cost::{Cost, Counts, work};
 use super::peel::arrange;
@@ -177,7 +178,7 @@ impl Part {
 }
 
 /// How a plane divides a part: the pieces that reach in front of it, that reach behind it, and on it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(in crate::build) struct Sides {
     pub(in crate::build) front: Mask,
     pub(in crate::build) back: Mask,
@@ -215,6 +216,9 @@ pub(in crate::build) struct Table {
     priced: Vec<Priced>,
     /// The numbers of the set's pieces in the order of the table.
     order: Vec<usize>,
+    /// The pieces of a part.
+    gathered: Vec<Piece>,
+    free: FreePlanes,
     /// The starts and the ends of the pieces along an axis.
     ends: [Vec<f64>; 2],
     /// The pieces on a plane, and those beside it.
@@ -444,6 +448,37 @@ impl Table {
         best.2 as usize
     }
 
+    /// An axis plane that cuts nothing of a part and has fewer pieces on each side.
+    pub(in crate::build) fn gap(
+        &mut self,
+        rules: &ChooseContext<'_>,
+        set: &Set<'_>,
+        part: &Part,
+    ) -> Result<Option<(PreparedPlane, Sides)>, Error> {
+        self.gathered.clear();
+        self.gathered.extend(part.pieces.iter().map(|piece| self.pieces[piece]));
+        let gathered = Set::new(set.faces, &self.gathered, set.arena).with(set.planes);
+        let Some(free) = self.free.clean(&gathered, rules.tuning) else { return Ok(None) };
+        let plane = gathered.prepare(free.plane);
+        let (mut sides, mut near) = (Sides::default(), Mask::default());
+        for place in part.pieces.iter() {
+            let piece = &self.pieces[place];
+            let cut = piece.cut_vertices(set.arena);
+            let (side, is_near) = plane.classify_and_reach(set.faces, piece.face, cut);
+            match side {
+                Side::Front => sides.front.set(place, true),
+                Side::Back => sides.back.set(place, true),
+                Side::Coplanar => sides.on.set(place, true),
+                // Rounded ends of pieces found the plane.
+                Side::Spanning => return Ok(None),
+            }
+            near.set(place, is_near);
+        }
+        let divides = sides.front != part.pieces && sides.back != part.pieces;
+        let keeps_pairs = self.rival_of(rules, set, (&plane, sides, near), &[])?.is_none();
+        Ok((divides && keeps_pairs).then_some((plane, sides)))
+    }
+
     /// The row that replaces a row, so that coplanar pieces stay together; see [`settle`](super::settle).
     pub(in crate::build) fn settled(
         &mut self,
@@ -474,8 +509,19 @@ impl Table {
         part: &Part,
         tried: &[u32],
     ) -> Result<Option<usize>, Error> {
-        let Sides { front, back, on } = self.sides(row, part);
-        let beside = self.rows[row].near & (front | back);
+        let (plane, near) = (self.planes[row], self.rows[row].near);
+        self.rival_of(rules, set, (&plane, self.sides(row, part), near), tried)
+    }
+
+    /// The same for any plane; `near` are the pieces near it.
+    fn rival_of(
+        &mut self,
+        rules: &ChooseContext<'_>,
+        set: &Set<'_>,
+        (plane, Sides { front, back, on }, near): (&PreparedPlane, Sides, Mask),
+        tried: &[u32],
+    ) -> Result<Option<usize>, Error> {
+        let beside = near & (front | back);
         if !self.are_paired(on, beside) {
             return Ok(None);
         }
@@ -486,8 +532,8 @@ impl Table {
         let is_cut = |piece: u32| (front & back).contains(piece as usize);
         let set = Set { pieces: &self.pieces, ..*set };
         let lists: [&[u32]; 2] = [&self.on, &self.beside];
-        let face = larger(&set, &self.planes[row], lists, is_cut, tried, rules.watch)?;
-        let is_of = |face: u32| part.pieces.iter().find(|&piece| self.pieces[piece].face == face);
+        let face = larger(&set, plane, lists, is_cut, tried, rules.watch)?;
+        let is_of = |face: u32| (on | beside).iter().find(|&piece| self.pieces[piece].face == face);
         Ok(face.and_then(is_of))
     }
 
