@@ -6,8 +6,8 @@
 //! ```
 //!
 //! With antialiased fills, two pieces of a card blend with the background where they meet, and a seam is
-//! visible. So each piece is filled without antialiasing. Then only the edges of its layer are stroked with
-//! antialiasing.
+//! visible. So each piece is filled without antialiasing, with the corners of its neighbours on its own cuts: the
+//! painter rounds an edge by its ends. Then only the edges of its layer are stroked with antialiasing.
 
 #![allow(clippy::print_stdout, reason = "a program")]
 
@@ -54,9 +54,31 @@ fn page() -> Vec<(Layer, [u8; 3])> {
     layers
 }
 
-/// Fills a piece without antialiasing, and strokes the edges of its layer with it.
-fn paint_piece(pixmap: &mut Pixmap, piece: LayerPiece<'_>, [red, green, blue]: [u8; 3]) {
-    let corners: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
+fn corners(piece: LayerPiece<'_>) -> Vec<DVec2> {
+    piece.vertices().map(|vertex| vertex.position.truncate()).collect()
+}
+
+/// Those of some points that lie between the ends of an edge, from its begin to its end.
+fn between(points: &[DVec2], [begin, end]: [DVec2; 2]) -> Vec<DVec2> {
+    let along = end - begin;
+    let place = |at: &DVec2| (*at - begin).dot(along) / along.length_squared();
+    let is_on = |at: &&DVec2| {
+        (0.0..1.0).contains(&place(at)) && at.distance(begin.lerp(end, place(at))) < 1e-6
+    };
+    let mut found: Vec<DVec2> = points.iter().filter(is_on).copied().collect();
+    found.sort_by(|a, b| place(a).total_cmp(&place(b)));
+    found
+}
+
+/// Fills a piece without antialiasing, and strokes the edges of its layer with it. `others` are the corners of all
+/// pieces of the layer.
+fn paint_piece(
+    pixmap: &mut Pixmap,
+    piece: LayerPiece<'_>,
+    others: &[DVec2],
+    [red, green, blue]: [u8; 3],
+) {
+    let corners = corners(piece);
     let edges: Vec<Option<u8>> = piece.edges().collect();
     let at = |k: usize| corners[k % corners.len()].as_vec2();
     let mut paint = Paint { anti_alias: false, ..Paint::default() };
@@ -64,7 +86,15 @@ fn paint_piece(pixmap: &mut Pixmap, piece: LayerPiece<'_>, [red, green, blue]: [
 
     let mut outline = PathBuilder::new();
     outline.move_to(at(0).x, at(0).y);
-    (1..corners.len()).for_each(|k| outline.line_to(at(k).x, at(k).y));
+    for (k, edge) in edges.iter().enumerate() {
+        let [begin, end] = [corners[k], corners[(k + 1) % corners.len()]];
+        if edge.is_none() {
+            for at in between(others, [begin, end]) {
+                outline.line_to(at.x as f32, at.y as f32);
+            }
+        }
+        outline.line_to(end.x as f32, end.y as f32);
+    }
     outline.close();
     if let Some(path) = outline.finish() {
         pixmap.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
@@ -102,8 +132,12 @@ fn paint(layers: &[(Layer, [u8; 3])]) -> Result<(Layers, Pixmap), Box<dyn Error>
     let mut pixmap = Pixmap::new(SCREEN[0], SCREEN[1]).ok_or("no pixels")?;
     let [red, green, blue] = BACKGROUND;
     pixmap.fill(Color::from_rgba8(red, green, blue, 255));
+    let mut of_layers = vec![vec![]; layers.len()];
     for piece in page.back_to_front() {
-        paint_piece(&mut pixmap, piece, layers[piece.layer()].1);
+        of_layers[piece.layer()].extend(corners(piece));
+    }
+    for piece in page.back_to_front() {
+        paint_piece(&mut pixmap, piece, &of_layers[piece.layer()], layers[piece.layer()].1);
     }
     Ok((page, pixmap))
 }
@@ -128,7 +162,7 @@ fn compared(layers: &[(Layer, [u8; 3])]) -> usize {
     let mut cuts: Vec<(usize, [DVec2; 2])> = Vec::new();
     let mut strokes: Vec<[DVec2; 2]> = Vec::new();
     for piece in page.back_to_front() {
-        let corners: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
+        let corners = corners(piece);
         for (k, edge) in piece.edges().enumerate() {
             let ends = [corners[k], corners[(k + 1) % corners.len()]];
             match edge {

@@ -154,7 +154,7 @@ fn maps_and_drawings_report_progress_and_can_be_cancelled() {
 /// A map keeps its callback. After a cancelled query, the map can still be queried.
 #[test]
 fn queries_of_a_map_report_progress_and_can_be_cancelled() {
-    let (view, listener) = (view(220), Listener::default());
+    let (view, listener) = (view(260), Listener::default());
     let View { tree, camera, overlay } = &view;
     listener.cancel_at(usize::MAX);
     let hear = |progress| listener.hear(progress);

@@ -107,6 +107,16 @@ pub(super) fn work(pieces: usize) -> f64 {
     (pieces as f64).powf(1.25)
 }
 
+/// A piece's own plane in a small set.
+pub(super) struct Row {
+    /// The work left on both sides.
+    pub(super) work: f64,
+    /// The work, less a reward for the planes that cut the piece.
+    pub(super) amount: f64,
+    /// The number of pieces that the plane cuts, and a share of those that the next planes may cut.
+    pub(super) cuts: f64,
+}
+
 /// A node with the set that was divided there.
 pub(super) struct Divided<'t> {
     pub(super) faces: &'t Faces,
@@ -130,24 +140,45 @@ impl Divided<'_> {
         })
     }
 
-    /// The cost that `auto` assigns to the planes of a set of whole faces.
-    pub(super) fn own_costs(&self) -> impl Iterator<Item = f64> {
-        let span = |corners: &[[f64; 3]], axis: usize| {
-            let along = || corners.iter().map(|corner| corner[axis]);
-            along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+    /// How `auto` compares the pieces' own planes in a small set, and the mean share of the set that a plane cuts.
+    pub(super) fn rows(&self) -> (Vec<Row>, f64) {
+        let n = self.set.len();
+        // For each plane, whether each piece reaches in front and behind.
+        let sides: Vec<Vec<[bool; 2]>> = self
+            .set
+            .iter()
+            .map(|own| {
+                let plane = model::plane(self.faces, PlaneId::face(own.face));
+                let reach = |piece: &Piece| {
+                    let values = piece.values(&plane);
+                    [std::cmp::Ordering::Greater, std::cmp::Ordering::Less]
+                        .map(|side| values.iter().any(|value| rational::sign(value) == side))
+                };
+                self.set.iter().map(reach).collect()
+            })
+            .collect();
+        let cuts = |plane: usize, piece: usize| sides[plane][piece] == [true; 2];
+        let pairs = || (0..n).flat_map(|plane| (0..n).map(move |piece| (plane, piece)));
+        let density =
+            pairs().filter(|&(plane, piece)| cuts(plane, piece)).count() as f64 / (n * n) as f64;
+        let weight = 0.5 * density / (density + 0.2) * 1.25 * (n as f64).powf(0.25);
+        let row = |own: usize| {
+            let on_side = [0, 1].map(|side| {
+                (0..n).filter(|&piece| sides[own][piece][side]).collect::<Vec<usize>>()
+            });
+            let risk = (0..n).filter(|&plane| cuts(plane, own)).count();
+            let next = on_side.iter().flat_map(|all| {
+                all.iter().flat_map(|&plane| all.iter().map(move |&piece| (plane, piece)))
+            });
+            Row {
+                amount: on_side.iter().map(|all| work(all.len())).sum::<f64>()
+                    - weight * risk as f64,
+                work: on_side.iter().map(|all| work(all.len())).sum(),
+                cuts: (0..n).filter(|&piece| cuts(own, piece)).count() as f64
+                    + 0.05 * next.filter(|&(plane, piece)| cuts(plane, piece)).count() as f64,
+            }
         };
-        let corners = |piece: &Piece| self.faces.corners(piece.face);
-        let all: Vec<[f64; 3]> = self.set.iter().flat_map(corners).copied().collect();
-        let pieces = self.set.len() as f64;
-        self.set.iter().zip(self.own_planes()).map(move |(piece, (counts, _))| {
-            let mut shares =
-                [0, 1, 2].map(|axis| match [span(corners(piece), axis), span(&all, axis)] {
-                    [_, 0.0] => 1.0,
-                    [own, of_all] => own / of_all,
-                });
-            shares.sort_by(f64::total_cmp);
-            counts.work() - 0.35 * pieces * shares[1] * shares[2]
-        })
+        ((0..n).map(row).collect(), density)
     }
 
     /// All planes perpendicular to an axis, through a corner where a piece ends, that separate pieces.

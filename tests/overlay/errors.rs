@@ -130,7 +130,7 @@ fn faulty_lines_and_points_are_named() {
 
 #[test]
 fn a_replacement_reports_progress_and_can_be_cancelled() {
-    let scene = scene::random_triangles(400, 1);
+    let scene = scene::random_triangles(800, 1);
     let tree = BspTree::build(scene.polygons()).expect("within budget");
     let mut overlay = Overlay::new(&tree);
     let lines = scene.polygons().map(|p| p.corners().collect::<Vec<_>>());
@@ -145,7 +145,7 @@ fn a_replacement_reports_progress_and_can_be_cancelled() {
     replaced.expect("on the grid");
     let (whole, last) = (overlay.len(), heard[heard.len() - 1]);
     assert_eq!((last.done, last.total), (overlay.faces().len() - tree.faces().len(), last.done));
-    assert_eq!(last.total, 400 + 800 + 1200);
+    assert_eq!(last.total, 800 + 1600 + 2400);
     let placed = heard.iter().filter(|p| p.total == last.total && p.done > 0 && p.done < p.total);
     enough!(placed.count() > 0; "{heard:?}");
     for stop in [0, heard.len() / 2, heard.len() - 2] {
