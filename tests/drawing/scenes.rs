@@ -2,7 +2,7 @@
 
 use super::map_of;
 use binspace::view::views;
-use testkit::fill::{Score, check, check_rays};
+use testkit::fill::{Score, check_with_rays};
 use testkit::prelude::*;
 use testkit::scenes::{scene_of, triangles};
 
@@ -23,9 +23,7 @@ pub(crate) fn cameras(scene: &Scene, count: usize, size: [u32; 2]) -> Vec<Camera
 fn check_scene(scene: &Scene, score: &mut Score) {
     let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();
     for camera in cameras(scene, 2, SIZE) {
-        let checked = check(&tree, &camera, score);
-        checked
-            .and_then(|()| check_rays(&tree, &camera, score))
+        check_with_rays(&tree, &camera, score)
             .unwrap_or_else(|fault| panic!("{}, {camera:?}: {fault}", scene.name()));
     }
 }

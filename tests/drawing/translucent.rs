@@ -3,7 +3,7 @@
 use super::map_with;
 use super::scenes::cameras;
 use binspace::drawing::{EdgeKind, EdgeRun};
-use testkit::layered::{Layers, check_layers, check_mixed, check_sight};
+use testkit::layered::{Layers, check_all};
 use testkit::prelude::*;
 use testkit::scenes::{scene_of, triangles};
 
@@ -24,9 +24,7 @@ struct Scores {
 fn check_scene(scene: &Scene, Scores { all, mixed }: &mut Scores) {
     let tree = BspTree::build(scene.polygons()).unwrap();
     for (i, camera) in cameras(scene, 1, [96, 72]).into_iter().enumerate() {
-        check_layers(&tree, &camera, all)
-            .and_then(|()| check_mixed(&tree, &camera, &MIXES[i % 3], mixed))
-            .and_then(|()| check_sight(&tree, &camera, &MIXES[i % 3], mixed))
+        check_all(&tree, &camera, &MIXES[i % 3], [all, mixed])
             .unwrap_or_else(|fault| panic!("{}, {i}, {camera:?}: {fault}", scene.name()));
     }
 }

@@ -2,61 +2,9 @@
 //! the vector area of the polygon. Compared in integers, at the corners on the grid.
 
 use binspace::{Preparation, Tolerance};
-use std::collections::BTreeMap;
-use testkit::checks::{area, face_area};
+use testkit::checks::{area, assert_outline_kept, face_area};
 use testkit::prelude::*;
-
-type Point = [i128; 3];
-
-fn minus(a: Point, b: Point) -> Point {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
-
-/// The sum of directed edges. All edges are divided at the points on them.
-fn chain(points: &[Point], edges: impl Iterator<Item = [Point; 2]>) -> BTreeMap<[Point; 2], i32> {
-    let mut chain = BTreeMap::new();
-    for [a, b] in edges {
-        let [low, high] = if a < b { [a, b] } else { [b, a] };
-        let on_edge = |p: &&Point| {
-            (low..=high).contains(p) && cross(minus(high, low), minus(**p, low)) == [0; 3]
-        };
-        let mut stops: Vec<Point> = points.iter().filter(on_edge).copied().collect();
-        stops.sort_unstable();
-        stops.dedup();
-        for pair in stops.windows(2) {
-            *chain.entry([pair[0], pair[1]]).or_insert(0) += if a < b { 1 } else { -1 };
-        }
-    }
-    chain.retain(|_, times| *times != 0);
-    chain
-}
-
-fn around(corners: &[Point]) -> impl Iterator<Item = [Point; 2]> {
-    (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]])
-}
-
-/// Asserts that a polygon's faces keep its outline.
-fn assert_kept(faces: &Faces, polygon: &[DVec3]) {
-    let whole = |p: [f64; 3]| p.map(|c| c as i128);
-    let corners: Vec<Point> = polygon.iter().map(|&p| whole(faces.lattice().snap(p))).collect();
-    let all: Vec<Vec<Point>> = (0..faces.len() as u32)
-        .map(|face| faces.corners(face).iter().map(|&p| whole(p)).collect())
-        .collect();
-    let expected = chain(&corners, around(&corners));
-    let found = chain(&corners, all.iter().flat_map(|face| around(face)));
-    assert_eq!(found, expected, "{polygon:?}\n{all:?}");
-    let zero = rational::point(DVec3::ZERO);
-    let sum = (0..faces.len() as u32)
-        .fold(zero, |sum, face| rational::sum(&sum, &face_area(faces, face)));
-    assert_eq!(sum, area(faces, polygon), "{polygon:?}");
-}
+use testkit::vector::{self, difference, product};
 
 /// Prepares a polygon of numbers that are exact in `f32`.
 fn prepare(polygon: &[DVec3], is_single: bool, tolerance: Tolerance) -> (Faces, Preparation) {
@@ -77,12 +25,12 @@ const WAYS: [(bool, Tolerance); 4] = [
 
 /// Whether all corners are in one plane, exactly. The coordinates are whole numbers.
 fn is_planar(polygon: &[DVec3]) -> bool {
-    let corners: Vec<Point> = polygon.iter().map(|p| p.to_array().map(|c| c as i128)).collect();
+    let corners: Vec<[i128; 3]> = polygon.iter().map(|p| p.to_array().map(|c| c as i128)).collect();
     let [first, rest @ ..] = &corners[..] else { return true };
-    let arms: Vec<Point> = rest.iter().map(|&p| minus(p, *first)).collect();
-    let normals = arms.iter().flat_map(|&a| arms.iter().map(move |&b| cross(a, b)));
+    let arms: Vec<[i128; 3]> = rest.iter().map(|p| difference(p, first)).collect();
+    let normals = arms.iter().flat_map(|a| arms.iter().map(move |b| product(a, b)));
     let Some(normal) = normals.into_iter().find(|&normal| normal != [0; 3]) else { return true };
-    arms.iter().all(|arm| (0..3).map(|i| arm[i] * normal[i]).sum::<i128>() == 0)
+    arms.iter().all(|arm| vector::scalar(arm, &normal) == 0)
 }
 
 fn of<const N: usize>(corners: [[i32; 3]; N]) -> Corners {
@@ -115,7 +63,7 @@ fn bent_polygons_that_overlap_in_their_main_projection_keep_surface_and_edges() 
                 let (faces, report) = prepare(&polygon, is_single, tolerance);
                 assert_eq!((report.triangulated, report.crossing, report.dropped), (1, 0, 0));
                 assert_eq!(faces.len(), polygon.len() - 2);
-                assert_kept(&faces, &polygon);
+                assert_outline_kept(&faces, &polygon);
             }
         }
     }
@@ -176,7 +124,7 @@ fn faces_keep_the_outline_of_every_bent_polygon() {
         }
         assert_eq!(report.crossing, 0, "{polygon:?}");
         assert_eq!(report.flattened, 0, "{polygon:?}");
-        assert_kept(&faces, &polygon);
+        assert_outline_kept(&faces, &polygon);
         counts[kind][usize::from(is_planar)] += 1;
     }
     enough!(counts.iter().all(|&[bent, _]| bent > 200); "{counts:?}");
@@ -201,7 +149,7 @@ fn a_loop_in_a_bent_outline_is_cut_off() {
         all.swap(at, at + 2);
         let (faces, report) = prepare(&all, false, Tolerance::Default);
         assert_eq!((report.triangulated, report.crossing), (1, 0));
-        assert_kept(&faces, &all);
+        assert_outline_kept(&faces, &all);
         let areas = (0..faces.len() as u32).map(|face| {
             let [.., z] = face_area(&faces, face);
             z.to_f64().value()

@@ -7,6 +7,7 @@
 
 use binspace::Ray;
 use binspace::glam::{DQuat, EulerRot};
+use std::collections::HashMap;
 use std::f64::consts::TAU;
 use testkit::prelude::*;
 use testkit::rational::{Plane, Point, exact, scalar};
@@ -142,15 +143,40 @@ fn is_near(faces: &Faces, plane: &Plane, point: &Point, tolerances: f64) -> bool
     &off * &off <= &most * &most * scalar(&plane.normal, &plane.normal)
 }
 
-/// Whether all corners of a face are clearly within the tolerance of a plane.
-fn is_on_plane(faces: &Faces, face: u32, plane: PlaneId) -> bool {
-    let plane = model::plane(faces, plane);
-    let corners = model::Face::new(faces, face).corners;
-    corners.iter().all(|corner| is_near(faces, &plane, corner, 1.0 - 1e-6))
+/// Which planes faces lie on, decided once for all trees with these faces.
+struct Flat<'f> {
+    faces: &'f Faces,
+    /// The corners of each face.
+    corners: Vec<Vec<Point>>,
+    decided: HashMap<(u32, PlaneId), bool>,
 }
 
-fn is_on(faces: &Faces, face: u32, other: u32) -> bool {
-    is_on_plane(faces, face, PlaneId::face(other))
+impl<'f> Flat<'f> {
+    fn new(faces: &'f Faces) -> Self {
+        let corners = |face| model::Face::new(faces, face).corners;
+        let corners = (0..faces.len() as u32).map(corners).collect();
+        Self { faces, corners, decided: HashMap::new() }
+    }
+
+    /// Whether all corners of a face are clearly within the tolerance of a plane.
+    fn is_on_plane(&mut self, face: u32, plane: PlaneId) -> bool {
+        *self.decided.entry((face, plane)).or_insert_with(|| {
+            let plane = model::plane(self.faces, plane);
+            let mut corners = self.corners[face as usize].iter();
+            corners.all(|corner| is_near(self.faces, &plane, corner, 1.0 - 1e-6))
+        })
+    }
+
+    fn is_on(&mut self, face: u32, other: u32) -> bool {
+        self.is_on_plane(face, PlaneId::face(other))
+    }
+
+    /// Whether other faces are the same.
+    fn are(&self, other: &Faces) -> bool {
+        let all = 0..self.faces.len() as u32;
+        (self.faces.len(), self.faces.tolerance()) == (other.len(), other.tolerance())
+            && all.into_iter().all(|face| self.faces.corners(face) == other.corners(face))
+    }
 }
 
 #[derive(Debug, Default)]
@@ -166,35 +192,44 @@ struct Counts {
     compared: usize,
 }
 
-fn judge(name: &str, tree: &BspTree, decals: &Decals, dice: &mut Dice, counts: &mut Counts) {
+fn judge(
+    (name, tree): (&str, &BspTree),
+    decals: &Decals,
+    flat: &mut Flat<'_>,
+    dice: &mut Dice,
+    counts: &mut Counts,
+) {
     let faces = tree.faces();
+    assert!(flat.are(faces), "{name}");
     let of = |polygon: usize| {
         let mut own = (0..faces.len() as u32).filter(|&face| faces.polygon(face) == polygon);
         own.next().filter(|_| own.next().is_none())
     };
     for &[card, wall] in &decals.pairs {
         let (Some(one), Some(other)) = (of(card), of(wall)) else { continue };
-        if !is_on(faces, one, other) {
+        if !flat.is_on(one, other) {
             continue;
         }
         // A card on two faces that are not coplanar keeps its place with one of them.
         let is_ambiguous = (0..faces.len() as u32).any(|face| {
-            let is_flat = |a, b| is_on(faces, a, b) || is_on(faces, b, a);
-            face != other && is_on(faces, one, face) && !is_flat(face, other)
+            face != other
+                && flat.is_on(one, face)
+                && !flat.is_on(face, other)
+                && !flat.is_on(other, face)
         });
         if is_ambiguous {
             counts.ambiguous += 1;
             continue;
         }
         counts.pairs += 1;
-        counts.one_sided += usize::from(!is_on(faces, other, one));
+        counts.one_sided += usize::from(!flat.is_on(other, one));
         let corners = &decals.polygons[wall];
         let x = (corners[1] - corners[0]).normalize();
         let z = x.cross(corners[2] - corners[0]).normalize();
-        let flat = |p: DVec3| dvec2(p.dot(x), p.dot(z.cross(x)));
+        let level = |p: DVec3| dvec2(p.dot(x), p.dot(z.cross(x)));
         let outlines = |polygon: usize| -> Vec<(u32, Vec<DVec2>)> {
             let own = (0..tree.len() as u32).filter(|&f| tree.fragment(f).polygon() == polygon);
-            own.map(|f| (f, tree.fragment(f).vertices().map(flat).collect())).collect()
+            own.map(|f| (f, tree.fragment(f).vertices().map(level).collect())).collect()
         };
         let (own, others) = (outlines(card), outlines(wall));
         let points = &decals.polygons[card];
@@ -203,14 +238,14 @@ fn judge(name: &str, tree: &BspTree, decals: &Decals, dice: &mut Dice, counts: &
             let sum: f64 = weights.iter().sum();
             let at = points.iter().zip(&weights).map(|(&p, w)| p * (w / sum)).sum::<DVec3>();
             let here = |outlines: &[(u32, Vec<DVec2>)]| {
-                let found = outlines.iter().find(|(_, outline)| is_inside(outline, flat(at)));
+                let found = outlines.iter().find(|(_, outline)| is_inside(outline, level(at)));
                 found.map(|(fragment, _)| *fragment)
             };
             let (Some(a), Some(b)) = (here(&own), here(&others)) else { continue };
             let is_crossed = tree.plane_between(a, b).is_some_and(|plane| {
                 let point = faces.lattice().to_lattice(at).map(exact);
                 is_near(faces, &model::plane(faces, plane), &point, 1.0 + 1e-6)
-                    && [one, other].iter().all(|&face| !is_on_plane(faces, face, plane))
+                    && [one, other].iter().all(|&face| !flat.is_on_plane(face, plane))
             });
             if is_crossed {
                 counts.crossed += 1;
@@ -307,8 +342,9 @@ fn cards_on_bodies_come_in_input_order_at_default_tolerances() {
                 }
                 _ => trees(&decals.polygons, options),
             };
+            let mut flat = Flat::new(all[0].1.faces());
             for (name, tree) in &all {
-                judge(name, tree, &decals, &mut dice, &mut counts);
+                judge((name, tree), &decals, &mut flat, &mut dice, &mut counts);
             }
             hits_are_equal(&all, &decals, &mut dice);
         }

@@ -1,6 +1,6 @@
 //! Fills outlines at the centres of pixels, in floats; pixels too near to an outline are left out.
 
-use binspace::drawing::{Drawing, ViewOptions};
+use binspace::drawing::{Drawing, ViewOptions, VisibilityMap};
 use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::Camera;
@@ -103,6 +103,23 @@ impl Picture {
         }
     }
 
+    /// Returns the numbers of all pixels that outlines may have changed, and some around them.
+    pub fn around<'o>(&self, outlines: impl Iterator<Item = &'o [[f64; 2]]>) -> Vec<usize> {
+        let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+        for corner in outlines.flatten() {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(corner[axis]);
+                high[axis] = high[axis].max(corner[axis]);
+            }
+        }
+        let width = self.size[0];
+        let [columns, rows] = [0, 1].map(|axis| {
+            (low[axis] - 1.0).max(0.0) as usize
+                ..self.size[axis].min((high[axis] + 1.0).max(0.0) as usize)
+        });
+        rows.flat_map(|y| columns.clone().map(move |x| y * width + x)).collect()
+    }
+
     pub fn of(drawing: &Drawing) -> Self {
         let mut picture = Self::new(drawing.size());
         drawing.paths().for_each(|path| picture.fill(path.polygon(), path.outlines()));
@@ -124,6 +141,20 @@ pub struct Score {
 /// Compares the map and the drawing of a view with the picture of the tree's order, pixel by pixel, by
 /// separate integers. For small scenes also with front faces only.
 pub fn check(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), String> {
+    checked(tree, camera, score).map(|_| ())
+}
+
+/// Runs the same check, and checks that every polygon of the map is the first hit of a ray through its point.
+pub fn check_with_rays(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), String> {
+    check_rays(&checked(tree, camera, score)?, tree, camera, score)
+}
+
+/// Runs the check, and returns the map.
+fn checked<'t>(
+    tree: &'t BspTree,
+    camera: &Camera,
+    score: &mut Score,
+) -> Result<VisibilityMap<'t>, String> {
     let rays = Rays::new(camera, tree.faces()).map_err(|error| error.to_string())?;
     if tree.len() < SMALL {
         let fronts = ViewOptions::DEFAULT.with_front_faces_only();
@@ -136,13 +167,13 @@ pub fn check(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), S
 /// Trees with fewer fragments are also judged with front faces only.
 const SMALL: usize = 100;
 
-fn check_view(
-    tree: &BspTree,
+fn check_view<'t>(
+    tree: &'t BspTree,
     camera: &Camera,
     rays: &Rays,
-    options: &ViewOptions<'_>,
+    options: &ViewOptions<'static>,
     score: &mut Score,
-) -> Result<(), String> {
+) -> Result<VisibilityMap<'t>, String> {
     let truth = paint_tree(tree, camera.viewpoint(), rays);
     let map = tree.visibility(camera, options).expect("memory");
     let drawing = map.drawing().expect("memory");
@@ -185,12 +216,15 @@ fn check_view(
     score.pictures += 1;
     score.paths += drawn.len();
     score.clipped += drawing.paths().filter(|path| path.is_clipped()).count();
-    Ok(())
+    Ok(map)
 }
 
-/// Checks that every polygon of a map is the first hit of a ray through its point.
-pub fn check_rays(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), String> {
-    let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
+fn check_rays(
+    map: &VisibilityMap<'_>,
+    tree: &BspTree,
+    camera: &Camera,
+    score: &mut Score,
+) -> Result<(), String> {
     for shown in map.polygons().filter(|shown| shown.area > 0.1) {
         score.rays += 1;
         // No polygon is seen edge-on. For polygons of one plane, the order decides.

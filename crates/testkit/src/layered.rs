@@ -42,13 +42,35 @@ fn truth(tree: &BspTree, camera: &Camera) -> Result<Vec<Vec<usize>>, String> {
 }
 
 pub fn check_layers(tree: &BspTree, camera: &Camera, score: &mut Layers) -> Result<(), String> {
-    let truth = truth(tree, camera)?;
+    check_translucent(&truth(tree, camera)?, tree, camera, score)
+}
+
+fn check_translucent(
+    truth: &[Vec<usize>],
+    tree: &BspTree,
+    camera: &Camera,
+    score: &mut Layers,
+) -> Result<(), String> {
     let drawing = Drawing::translucent(tree, camera, &ViewOptions::DEFAULT, None).expect("memory");
     let is_unsure = vec![false; truth.len()];
     let is_flat = tree.preparation().flattened == 0;
-    compare(&drawing, &truth, is_unsure, is_flat, &|_| 0.5, score)?;
+    compare(&drawing, truth, is_unsure, is_flat, &|_| 0.5, score)?;
     score.fragments += tree.len();
     Ok(())
+}
+
+/// Runs all checks of this module: of translucent polygons, and of polygons with opacities.
+pub fn check_all(
+    tree: &BspTree,
+    camera: &Camera,
+    opacity: &dyn Fn(usize) -> f64,
+    [all, mixed]: [&mut Layers; 2],
+) -> Result<(), String> {
+    let truth = truth(tree, camera)?;
+    check_translucent(&truth, tree, camera, all)?;
+    let map = tree.visibility(camera, &with_opacities(tree, opacity)).expect("memory");
+    check_map(&map, &truth, tree, opacity, mixed)?;
+    check_sight(&map, tree, camera, opacity, mixed)
 }
 
 /// Runs the check of this module for polygons with opacities.
@@ -58,8 +80,18 @@ pub fn check_mixed(
     opacity: &dyn Fn(usize) -> f64,
     score: &mut Layers,
 ) -> Result<(), String> {
-    let truth = truth(tree, camera)?;
     let map = tree.visibility(camera, &with_opacities(tree, opacity)).expect("memory");
+    check_map(&map, &truth(tree, camera)?, tree, opacity, score)
+}
+
+/// Compares a map, its regions and its drawing with the polygons at each pixel.
+fn check_map(
+    map: &VisibilityMap<'_>,
+    truth: &[Vec<usize>],
+    tree: &BspTree,
+    opacity: &dyn Fn(usize) -> f64,
+    score: &mut Layers,
+) -> Result<(), String> {
     let drawing = map.drawing().expect("memory");
     // Outlines do not contain parts thinner than this.
     let mut by_cells = Picture::new(map.size());
@@ -68,9 +100,9 @@ pub fn check_mixed(
         by_cells.fill(cell.polygon(), std::iter::once(&corners[..]));
     }
     let is_unsure: Vec<bool> = by_cells.pixels.iter().map(|p| *p == Pixel::Unsure).collect();
-    check_regions(&map, &truth, &is_unsure, opacity, score)?;
+    check_regions(map, truth, &is_unsure, opacity, score)?;
     let is_flat = tree.preparation().flattened == 0;
-    let paths = compare(&drawing, &truth, is_unsure, is_flat, opacity, score)?;
+    let paths = compare(&drawing, truth, is_unsure, is_flat, opacity, score)?;
     score.fragments += tree.len();
     score.hidden += tree.preparation().polygons - paths.len();
     for (&polygon, [all, parts]) in &paths {
@@ -94,13 +126,13 @@ pub fn check_mixed(
 
 /// Checks by rays that nothing opaque is in front of the visible polygons. (Where polygons within the
 /// tolerance of one plane overlap, the order decides which is visible, and rays cannot judge it.)
-pub fn check_sight(
+fn check_sight(
+    map: &VisibilityMap<'_>,
     tree: &BspTree,
     camera: &Camera,
     opacity: &dyn Fn(usize) -> f64,
     score: &mut Layers,
 ) -> Result<(), String> {
-    let map = tree.visibility(camera, &with_opacities(tree, opacity)).expect("memory");
     for shown in map.polygons().filter(|shown| shown.area > 0.01) {
         score.rays += 1;
         let mut hits = tree.hits(ray(camera, shown.point)).filter(|hit| {
@@ -119,7 +151,7 @@ pub fn check_sight(
 
 /// Checks that each pixel is in the region of the polygons visible there, and in no other; and that regions
 /// of a polygon have its area.
-pub fn check_regions(
+fn check_regions(
     map: &VisibilityMap<'_>,
     truth: &[Vec<usize>],
     is_unsure: &[bool],
@@ -185,17 +217,17 @@ fn compare(
     let width = drawing.size()[0] as usize;
     let mut found: Vec<Vec<usize>> = vec![vec![]; truth.len()];
     let mut paths: HashMap<usize, [usize; 2]> = HashMap::new();
+    let mut picture = Picture::new(drawing.size());
     for path in drawing.paths() {
         let [all, parts] = paths.entry(path.polygon()).or_default();
         *all += 1;
         *parts += usize::from(path.is_clipped());
-        let mut picture = Picture::new(drawing.size());
         picture.fill(path.polygon(), path.outlines());
-        for (i, pixel) in picture.pixels.iter().enumerate() {
-            match pixel {
+        for i in picture.around(path.outlines()) {
+            match std::mem::replace(&mut picture.pixels[i], Pixel::Nothing) {
                 Pixel::Nothing => {}
                 // If outlines of one path overlapped, the pixel would be covered only once.
-                Pixel::Polygon(polygon) => found[i].push(*polygon),
+                Pixel::Polygon(polygon) => found[i].push(polygon),
                 Pixel::Unsure => is_unsure[i] = true,
             }
         }
