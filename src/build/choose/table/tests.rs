@@ -104,7 +104,7 @@ fn after_every_cut_the_table_has_the_sides_of_the_parts() {
             assert_sides(&table, &set, &part);
             let best = table.best(&mut part, &Tuning::DEFAULT);
             let any = part.pieces.iter().nth(random.next() as usize % part.pieces.count());
-            let row = if random.next() % 2 == 0 { best } else { any.unwrap() };
+            let row = if random.next().is_multiple_of(2) { best } else { any.unwrap() };
             let (Sides { front, back, .. }, plane) = (table.sides(row, &part), *table.plane(row));
             let mut of_front: Vec<(usize, Piece, _)> = vec![];
             let mut of_back = vec![];
@@ -179,7 +179,7 @@ fn masks_are_sets_of_places() {
         let first = Mask::first(n);
         assert!(first.iter().eq(0..n) && first.count() == n && first.is_empty() == (n == 0));
         let mut some = Mask::default();
-        let chosen: Vec<usize> = (0..n).filter(|_| random.next() % 5 == 0).collect();
+        let chosen: Vec<usize> = (0..n).filter(|_| random.next().is_multiple_of(5)).collect();
         chosen.iter().for_each(|&place| some.set(place, true));
         assert!(some.iter().eq(chosen.iter().copied()));
         assert_eq!((first & !some).count(), n - chosen.len());
