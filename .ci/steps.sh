@@ -321,10 +321,12 @@ python_wheel() {
         --target-dir "$target/python/target" --out "$target/python/wheels" "$@"
 }
 
-# python_tests FOLDER: the tests of the wheel in an environment.
+# python_tests FOLDER: the tests of the wheel in an environment. They start many interpreters, and without bytecode on
+# the disk each compiles matplotlib anew.
 python_tests() {
     "$target/python/$1/bin/pip" install --quiet --no-deps --force-reinstall "$target"/python/wheels/*.whl &&
-        "$target/python/$1/bin/python" -m pytest --quiet -p no:cacheprovider python/tests
+        PYTHONDONTWRITEBYTECODE='' PYTHONPYCACHEPREFIX=$target/python/$1/bytecode \
+            "$target/python/$1/bin/python" -m pytest --quiet -p no:cacheprovider python/tests
 }
 
 old_matplotlib() {

@@ -6,14 +6,18 @@
 use binspace::BspTree;
 use binspace::scene::Scene;
 use bvh::bvh::Bvh;
-use dhat::{HeapStats, Profiler};
 use euclid::default::Point3D;
+use peakmem_alloc::{PeakMemAlloc, PeakMemAllocTrait};
 use plane_split::BspSplitter;
+use stats_alloc::{Region, StatsAlloc};
+use std::alloc::System;
 use std::thread;
 use support::{Table, boxed, check, print_head, scene, triangulated, viewpoints};
 
+static COUNTING: StatsAlloc<System> = StatsAlloc::system();
+
 #[global_allocator]
-static COUNTING: dhat::Alloc = dhat::Alloc;
+static MEASURING: PeakMemAlloc<&StatsAlloc<System>> = PeakMemAlloc::new(&COUNTING);
 
 const SCENES: [&str; 11] = [
     "random:1000",
@@ -51,18 +55,18 @@ fn main() {
     for name in SCENES {
         let scene = scene(name);
         // Allocations are counted from here on, so the scene is not included.
-        let profiler = Profiler::builder().testing().build();
-        let tree = BspTree::build(scene.polygons()).expect("within budget");
-        let built = HeapStats::get();
+        MEASURING.reset_peak_memory();
+        let (tree, bytes) = kept(|| BspTree::build(scene.polygons()).expect("within budget"));
+        let most = MEASURING.get_peak_memory();
         let viewpoints = viewpoints(&scene);
         let mut order = Vec::new();
-        let before = HeapStats::get().total_blocks;
+        let region = Region::new(&COUNTING);
         for &viewpoint in &viewpoints {
             tree.back_to_front_into(viewpoint, &mut order);
-            let blocks = HeapStats::get().total_blocks - before;
+            let change = region.change();
+            let blocks = change.allocations + change.reallocations;
             assert_eq!(blocks, 1, "only the first order allocates");
         }
-        drop(profiler);
         check(&tree, &scene);
         assert_eq!(order.len(), tree.len());
 
@@ -73,22 +77,25 @@ fn main() {
             name.to_owned(),
             scene.len().to_string(),
             tree.len().to_string(),
-            each(built.curr_bytes, tree.len()),
-            format!("{:.2}", built.max_bytes as f64 / built.curr_bytes as f64),
-            each(built.curr_bytes, scene.len()),
+            each(bytes, tree.len()),
+            format!("{:.2}", most as f64 / bytes as f64),
+            each(bytes, scene.len()),
             split.unwrap_or("–".to_owned()),
             each(bytes_of_hierarchy(&scene), scene.len()),
         ]);
     }
 }
 
-/// The bytes that the result of a function keeps.
+/// The result of a function, and the bytes that it keeps.
+fn kept<T>(make: impl FnOnce() -> T) -> (T, usize) {
+    let region = Region::new(&COUNTING);
+    let result = make();
+    let change = region.change();
+    (result, change.bytes_allocated - change.bytes_deallocated)
+}
+
 fn bytes_of<T>(make: impl FnOnce() -> T) -> usize {
-    let _profiler = Profiler::builder().testing().build();
-    let kept = make();
-    let bytes = HeapStats::get().curr_bytes;
-    drop(kept);
-    bytes
+    kept(make).1
 }
 
 fn bytes_of_splitter(scene: &Scene) -> usize {

@@ -125,6 +125,12 @@ def one_surface(ax):
     ax.plot_surface(x, y, x * y, cmap="viridis", edgecolor="k", lw=0.5)
 
 
+def two_surfaces(ax):
+    x, y = np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-2, 2, 9))
+    ax.plot_surface(x, y, np.sin(x) * np.cos(y), color="C0")
+    ax.plot_surface(x, y, 0.4 * x, color="C1")
+
+
 def one_line(ax):
     t = np.linspace(0, 9, 40)
     ax.plot(np.cos(t), np.sin(t), t, "r--", marker="o", ms=4, markevery=3)
@@ -254,7 +260,7 @@ def test_areas_are_divided_again_only_after_a_change(monkeypatch):
 def test_files(format, tmp_path):
     figure = plt.figure()
     ax = figure.add_subplot(projection="exact3d")
-    compare.SCENES[0](ax)
+    two_surfaces(ax)
     some_patches(ax)
     ax.plot([-2, 2], [-2, 2], [-1, 1], "k")
     figure.savefig(tmp_path / f"a.{format}")
@@ -282,7 +288,7 @@ def test_existing_axes_become_exact():
     figure, ax = plt.subplots(subplot_kw={"projection": "3d"})
     assert binspace.mpl.exact(ax) is ax and isinstance(ax, binspace.mpl.ExactAxes3D)
     assert type(binspace.mpl.exact(ax)) is binspace.mpl.ExactAxes3D
-    compare.SCENES[0](ax)
+    two_surfaces(ax)
     figure.canvas.draw()
 
     own = figure.add_axes(Own(figure))
@@ -347,7 +353,7 @@ def test_computed_zorder_off_is_left_to_mplot3d():
     for projection in ("3d", "exact3d"):
         figure = plt.figure(figsize=(3, 3), dpi=50)
         ax = figure.add_subplot(projection=projection, computed_zorder=False)
-        compare.SCENES[0](ax)
+        two_surfaces(ax)
         figure.canvas.draw()
         images.append(np.asarray(figure.canvas.buffer_rgba()))
     assert np.array_equal(*images)
@@ -468,7 +474,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import binspace.mpl
 ax = plt.figure().add_subplot(projection="exact3d")
-x, y = np.meshgrid(np.linspace(-2, 2, 20), np.linspace(-2, 2, 20))
+x, y = np.meshgrid(np.linspace(-2, 2, 12), np.linspace(-2, 2, 12))
 ax.plot_surface(x, y, np.sin(x))
 ax.plot_surface(x, y, np.cos(y))
 ax.plot([-2, 2], [-2, 2], [-1, 1])
@@ -483,9 +489,9 @@ def test_a_first_try(tmp_path):
 
 def test_axes_are_copied_and_pickled():
     figure = plt.figure(figsize=(2, 2))
-    compare.SCENES[0](figure.add_subplot(projection="exact3d"))
+    two_surfaces(figure.add_subplot(projection="exact3d"))
     own = binspace.mpl.exact(figure.add_axes(Own(figure)))
-    compare.SCENES[0](own)
+    two_surfaces(own)
     own.exact_progress = lambda done, total: None
     figure.canvas.draw()
     for again in (copy.deepcopy(figure), pickle.loads(pickle.dumps(figure))):
@@ -515,7 +521,7 @@ def test_pgf_has_one_path_a_polygon(tmp_path):
 def test_the_build_of_a_tree_reports_and_is_cancelled():
     figure = plt.figure(figsize=(3, 3), dpi=50)
     ax = figure.add_subplot(projection="exact3d")
-    compare.SCENES[0](ax)
+    two_surfaces(ax)
     calls = []
 
     def stop(done, total):

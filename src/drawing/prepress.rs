@@ -742,7 +742,7 @@ mod trap_tests {
         // Ever smaller in the same place; of one size below the least strip, and above it.
         let sizes: [fn(usize) -> f64; 3] = [|n| 30.0 / n as f64, |_| 0.2, |_| 0.9];
         for size in sizes {
-            for n in [32, 64, 128] {
+            for n in [24, 48, 96] {
                 let outlines = tiles(n, size(n), 0.0);
                 let callback = one_at_a_time(|_| ControlFlow::Continue(()));
                 let watch = Watch::new(&callback);

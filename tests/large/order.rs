@@ -9,7 +9,7 @@ use testkit::prelude::*;
 #[test]
 fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
     let trial = Trial { heuristics: Heuristic::ALL, views: times(3), rays: 8, most: 100 };
-    let scores = trial.hold_all(KINDS, 1, |kind, dice| all_scenes::scene(kind, dice, 500));
+    let scores = trial.hold_all(KINDS, 1, |kind, dice| all_scenes::scene(kind, dice, 350));
     for (name, score) in &scores {
         enough!(score.trees >= 6, score.pairs > 12; "{name}: {score:?}");
     }

@@ -153,9 +153,12 @@ fn judge(given: &[Given], kind: Kind, dice: &mut Dice, tally: &mut Tally) {
     let largest = least.max(reach.fold(0.0, f64::max) * 2f64.powi(-45));
     // The tolerance has these lower and upper limits.
     let [least, largest] = [least, largest].map(|t| t.clamp(1e-9 * SIZE, 1e-5 * SIZE));
-    let off = |plane: usize, layer: usize| {
-        let of_layer = vertices().filter(|&(k, _)| k == layer);
-        of_layer.map(|(_, vertex)| planes[plane].distance(vertex.position)).fold(0.0, f64::max)
+    let mut known = vec![vec![None; planes.len()]; planes.len()];
+    let mut off = |plane: usize, layer: usize| {
+        *known[plane][layer].get_or_insert_with(|| {
+            let of_layer = vertices().filter(|&(k, _)| k == layer);
+            of_layer.map(|(_, vertex)| planes[plane].distance(vertex.position)).fold(0.0, f64::max)
+        })
     };
     for (k, later) in pieces.iter().enumerate() {
         for earlier in &pieces[..k] {
@@ -167,7 +170,7 @@ fn judge(given: &[Given], kind: Kind, dice: &mut Dice, tally: &mut Tally) {
             let depth = |k: usize| Some(truths[k].seen_at(&at.to_array().map(exact))?.1);
             let (Some(far), Some(near)) = (depth(a), depth(b)) else { continue };
             // The plane of a third layer may come between them.
-            let is_third = |c: &usize| {
+            let mut is_third = |c: &usize| {
                 let passes = planes[*c].distance(at.extend(number(&far))) <= 2.0 * largest;
                 passes && [a, b].iter().any(|&k| off(*c, k).max(off(k, *c)) > 0.99 * least)
             };

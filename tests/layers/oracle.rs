@@ -118,12 +118,11 @@ pub(crate) fn covers(outline: &[DVec2], rounded: DVec2, at: &Point2) -> bool {
     }
     let outline: Vec<Point2> = outline.iter().map(|p| p.to_array().map(exact)).collect();
     let next = outline.iter().cycle().skip(1);
-    let sides: Vec<Rational> = outline
-        .iter()
-        .zip(next)
-        .map(|(a, b)| (&b[0] - &a[0]) * (&at[1] - &a[1]) - (&b[1] - &a[1]) * (&at[0] - &a[0]))
-        .collect();
-    sides.iter().all(|side| side.is_positive()) || sides.iter().all(|side| side.is_negative())
+    let mut sides = outline.iter().zip(next).map(|(a, b)| {
+        sign(&((&b[0] - &a[0]) * (&at[1] - &a[1]) - (&b[1] - &a[1]) * (&at[0] - &a[0])))
+    });
+    let first = sides.next().expect("an outline");
+    first.is_ne() && sides.all(|side| side == first)
 }
 
 pub(crate) fn number(value: &Rational) -> f64 {

@@ -6,31 +6,39 @@ mod layers;
 mod loading;
 mod orders_and_frames;
 
-use dhat::{HeapStats, Profiler};
+use peakmem_alloc::{PeakMemAlloc, PeakMemAllocTrait};
+use stats_alloc::StatsAlloc;
+use std::alloc::System;
 use std::sync::{Mutex, PoisonError};
 
+static COUNTING: StatsAlloc<System> = StatsAlloc::system();
+
 #[global_allocator]
-static COUNTING: dhat::Alloc = dhat::Alloc;
+static MEASURING: PeakMemAlloc<&StatsAlloc<System>> = PeakMemAlloc::new(&COUNTING);
 
 /// Runs `work` while no other test of this program runs, and counts.
 fn counted(work: impl FnOnce()) {
     static ALONE: Mutex<()> = Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let _profiler = Profiler::builder().testing().trim_backtraces(Some(4)).build();
+    MEASURING.reset_peak_memory();
     work();
 }
 
 /// The number of allocations while `work` runs.
-fn allocations(work: impl FnOnce()) -> u64 {
-    let before = HeapStats::get().total_blocks;
+fn allocations(work: impl FnOnce()) -> usize {
+    let all = || {
+        let stats = COUNTING.stats();
+        stats.allocations + stats.reallocations
+    };
+    let before = all();
     work();
-    HeapStats::get().total_blocks - before
+    all() - before
 }
 
 /// The fewest allocations of many runs. The test runner starts and ends threads while a test runs, and these
 /// allocate. So a test fails only if every run allocates.
-fn least_allocations(mut work: impl FnMut()) -> u64 {
-    let mut least = u64::MAX;
+fn least_allocations(mut work: impl FnMut()) -> usize {
+    let mut least = usize::MAX;
     for _ in 0..1000 {
         least = least.min(allocations(&mut work));
         if least == 0 {
@@ -40,7 +48,17 @@ fn least_allocations(mut work: impl FnMut()) -> u64 {
     least
 }
 
-/// The largest memory in use at once.
+/// The largest memory in use at once, besides what was in use when `counted` began.
 fn most_bytes() -> usize {
-    HeapStats::get().max_bytes
+    MEASURING.get_peak_memory()
+}
+
+#[test]
+fn allocations_and_bytes_are_counted() {
+    counted(|| {
+        let mut list = vec![1_u8];
+        assert!(allocations(|| list = vec![0; 1 << 20]) > 0);
+        assert!(allocations(|| list.reserve(1 << 20)) > 0);
+        assert!((2 << 20..3 << 20).contains(&most_bytes()));
+    });
 }

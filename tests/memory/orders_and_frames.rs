@@ -110,7 +110,7 @@ fn frame_again() {
     assert!(frame(0) > 10);
     // The lists have grown to their sizes after a few similar frames.
     (1..6).for_each(|turn| _ = frame(turn));
-    let rounds = [6..12, 12..18, 18..24].map(|turns| turns.map(&mut frame).sum::<u64>());
+    let rounds = [6..12, 12..18, 18..24].map(|turns| turns.map(&mut frame).sum::<usize>());
     // The test runner may allocate while a test runs.
     assert_eq!(rounds.into_iter().min(), Some(0), "{rounds:?}");
 }

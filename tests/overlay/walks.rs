@@ -77,8 +77,8 @@ fn walk(scene: &Scene, tolerance: Option<f64>, frames: usize, movers: usize) -> 
 
 #[test]
 fn movers_in_a_city_are_right_in_every_pixel() {
-    let judged = walk(&scene::city(600, 2), Some(0.0), 60, 50);
-    judged.assert_floor(60, 500_000, 30_000);
+    let judged = walk(&scene::city(600, 2), Some(0.0), 40, 50);
+    judged.assert_floor(40, 333_000, 20_000);
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn first_of_the_build(heard: &[Progress]) -> usize {
 
 #[test]
 fn progress_never_falls_and_ends_at_the_total() {
-    for scene in [scene::random_triangles(1000, 3), scene::city(5000, 3), scene::sphere(5000)] {
+    for scene in [scene::random_triangles(600, 3), scene::city(5000, 3), scene::sphere(5000)] {
         for heuristic in BY {
             let (tree, heard) = build(&scene, heuristic, usize::MAX);
             let faces = tree.unwrap().faces().len();

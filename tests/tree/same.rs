@@ -6,7 +6,7 @@ use testkit::snapshot::{Snapshot, order};
 
 #[test]
 fn any_number_of_threads_builds_the_same_tree() {
-    let scenes: [Scene; 3] = [scene::sphere(5000), scene::city(5000, 3), scene::teapot(12)];
+    let scenes: [Scene; 3] = [scene::sphere(2500), scene::city(5000, 3), scene::teapot(12)];
     let by = [Heuristic::Auto, Heuristic::Sampled { candidates: 4 }];
     for scene in scenes {
         for heuristic in by {

@@ -196,7 +196,7 @@ fn budgets_end_in_errors_that_say_the_limit() {
         }
     }
     let list = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_max_depth(1000);
-    assert!(error(&scene::chain(LARGE), list).kind() == ErrorKind::OverBudget);
+    assert!(error(&scene::chain(10_000), list).kind() == ErrorKind::OverBudget);
 }
 
 #[test]

@@ -23,22 +23,24 @@ fn vertices(tree: &BspTree) -> Vec<Vec<Point>> {
 
 /// The least and the largest coordinates.
 fn hull<'a>(points: impl Iterator<Item = &'a Point> + Clone) -> [Point; 2] {
-    let by = |pick: fn(Rational, Rational) -> Rational| {
-        std::array::from_fn(|i| points.clone().map(|p| p[i].clone()).reduce(pick).unwrap())
-    };
-    [by(Rational::min), by(Rational::max)]
+    let along = |i: usize| points.clone().map(move |p| &p[i]);
+    [
+        [0, 1, 2].map(|i| along(i).min().unwrap().clone()),
+        [0, 1, 2].map(|i| along(i).max().unwrap().clone()),
+    ]
 }
 
 #[test]
 fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
     let [mut cut, mut exact] = [0; 2];
     for tree in trees().into_iter().filter(|tree| !tree.is_empty()) {
-        let vertices = vertices(&tree);
+        // Of each fragment.
+        let hulls: Vec<[Point; 2]> = vertices(&tree).iter().map(|v| hull(v.iter())).collect();
         let [low, high] = tree.bounds().unwrap();
         let extent = (high - low).max_element();
         let mut check = |[low, high]: [DVec3; 2], range: std::ops::Range<u32>, what: &str| {
             let range = range.start as usize..range.end as usize;
-            let [least, most] = hull(vertices[range].iter().flatten());
+            let [least, most] = hull(hulls[range].iter().flatten());
             for axis in 0..3 {
                 for (outer, inner, sign) in
                     [(low[axis], &least[axis], 1.0), (high[axis], &most[axis], -1.0)]

@@ -223,10 +223,10 @@ fn a_place_that_cannot_be_written_is_noticed_before_the_work() {
 #[test]
 fn memory_is_that_of_one_cell() {
     /// In kB.
-    const MEMORY: u32 = 18 << 10;
+    const MEMORY: u32 = 11 << 10;
     let folder = Folder::new("cells_memory");
     let mut text = String::new();
-    let side = 320;
+    let side = 226;
     for k in 0..side * side {
         let (x, y) = (f64::from(k % side), f64::from(k / side));
         writeln!(text, "v {x} {y} {:.2}", (x * 0.31).sin() * (y * 0.17).cos() * 5.0).unwrap();
@@ -249,7 +249,7 @@ fn memory_is_that_of_one_cell() {
         assert!(output.status.success() || message.contains("memory"), "{message}");
         output.status.success()
     };
-    // One cell of eight takes 12 to 16 MB, one of four 21 to 28, and all in one 80 to 90.
+    // One cell of eight takes 8 to 9 MB, one of four 13 to 14.
     assert!(builds(8) && !builds(4));
 }
 

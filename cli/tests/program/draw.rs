@@ -70,10 +70,10 @@ impl View {
         BspTree::build(self.scene.build(size, 1).polygons()).unwrap()
     }
 
-    /// The number of corners of a polygon.
-    pub(crate) fn corners_of(&self, number: usize) -> usize {
+    /// The number of corners of each polygon.
+    pub(crate) fn corners(&self) -> Vec<usize> {
         let size = (self.size > 0).then_some(self.size);
-        self.scene.build(size, 1).polygon(number).len()
+        self.scene.build(size, 1).polygons().map(|polygon| polygon.points().len()).collect()
     }
 
     pub(crate) fn camera(&self) -> Camera {

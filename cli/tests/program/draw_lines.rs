@@ -106,7 +106,7 @@ fn hidden_parts_are_dashed_below_what_is_visible_and_lie_behind_something() {
             svg.lines.iter().map(|line| line.classes[0] == "hidden").collect();
         assert!(is_hidden.is_sorted_by(|a, b| a >= b), "hidden lines come first");
         assert!(svg.text.contains("stroke-dasharray") && svg.text.contains("class=\"visible\""));
-        let truth = view.truth();
+        let (truth, corners) = (view.truth(), view.corners());
         let [width, height] = view.pixels.map(f64::from);
         for (line, &is_hidden) in svg.lines.iter().zip(&is_hidden) {
             match line.crossing {
@@ -118,7 +118,7 @@ fn hidden_parts_are_dashed_below_what_is_visible_and_lie_behind_something() {
                 None => {
                     let kind = &*line.classes[1];
                     match line.edge {
-                        Some([polygon, edge]) => assert!(edge < view.corners_of(polygon)),
+                        Some([polygon, edge]) => assert!(edge < corners[polygon]),
                         // Where a polygon that is not planar turns away.
                         None => assert_eq!(kind, "silhouette"),
                     }

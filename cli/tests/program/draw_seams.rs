@@ -1,6 +1,6 @@
 //! Seams between neighbours in SVG files, as a viewer shows them, against exact samples.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::fmt::Write as _;
 
 use binspace::BspTree;
@@ -81,20 +81,28 @@ impl Sampled {
                 sampled.kinds.push(1);
                 continue;
             }
-            let kinds: HashSet<u32> = rows.clone().flatten().copied().collect();
+            // How often each is there.
+            let mut kinds: Vec<(u32, f64)> = vec![];
+            for run in rows.flat_map(|row| row.chunk_by(|a, b| a == b)) {
+                let count = run.len() as f64;
+                match kinds.iter_mut().find(|(kind, _)| *kind == run[0]) {
+                    Some((_, total)) => *total += count,
+                    None => kinds.push((run[0], count)),
+                }
+            }
             let span = |i: usize| {
-                let channel = kinds.iter().map(|&kind| colours[kind as usize][i]);
+                let channel = kinds.iter().map(|&(kind, _)| colours[kind as usize][i]);
                 let ends = channel.fold([f32::MAX, f32::MIN], |[l, h], c| [l.min(c), h.max(c)]);
                 f64::from(ends[1] - ends[0])
             };
             sampled.contrasts.push((0..3).map(span).fold(0.0, f64::max));
-            let mut sum = [0.0; 3];
-            for &kind in rows.flatten() {
-                let colour = colours[kind as usize];
-                sum = [0, 1, 2].map(|i: usize| sum[i] + f64::from(colour[i]));
-            }
-            sampled.means.push(sum.map(|sum| sum / (SAMPLES * SAMPLES) as f64));
-            sampled.is_open.push(kinds.contains(&0));
+            let mean = |i: usize| {
+                let light =
+                    |&(kind, count): &(u32, f64)| f64::from(colours[kind as usize][i]) * count;
+                kinds.iter().map(light).sum::<f64>() / (SAMPLES * SAMPLES) as f64
+            };
+            sampled.means.push([0, 1, 2].map(mean));
+            sampled.is_open.push(kinds.iter().any(|&(kind, _)| kind == 0));
             sampled.kinds.push(kinds.len());
         }
         sampled

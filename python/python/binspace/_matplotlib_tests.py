@@ -106,8 +106,9 @@ def main(tests):
     with tempfile.TemporaryDirectory() as folder:
         # Copied out of the source tree, because the sources in that tree are not built.
         shutil.copytree(tests, os.path.join(folder, "tests"))
-        before, ours = (results(folder, axes) for axes in ("mplot3d", "exact"))
-    if not ours or all(before.values()):
+        before = results(folder, "mplot3d")
+        ours = {} if all(before.values()) else results(folder, "exact")
+    if not ours:
         print(f"{tests} has no tests that pass with mplot3d's axes", file=sys.stderr)
         return 1
     own = sorted(name for name, failures in ours.items() if failures and not before.get(name))

@@ -66,58 +66,85 @@ fn ray_of(rays: &Rays, x: u32, y: u32, moved: bool) -> Ray {
     }
 }
 
-/// The point where a ray meets the plane of a face, and the multiple of its direction, as a quotient; `None`
-/// if the ray does not meet the plane, or only behind the eye.
-fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [IBig; 2])> {
-    let (n, p) = plane(faces, face);
-    let Ray(Point(start, divisor), direction) = ray;
-    let along = dot(&n, direction);
-    let from = dot(&n, &minus(start, &times(&p, divisor)));
-    if along.is_zero() || rays.is_perspective() && from.is_zero() {
-        return None;
-    }
-    if rays.front_only && along.is_positive() {
-        return None;
-    }
-    if rays.is_perspective() && along.is_positive() == from.is_positive() {
-        return None;
-    }
-    let sign = along.signum();
-    let point = minus(&times(start, &along), &times(direction, &from));
-    let divisor = divisor * &along * &sign;
-    Some((Point(times(&point, &sign), divisor.clone()), [-from * sign, divisor]))
+/// A face in unlimited integers, for many rays.
+pub(crate) struct Target {
+    normal: Vector,
+    /// A point of the plane.
+    point: Vector,
+    corners: Vec<Vector>,
+    /// The axis along which the outline is looked at: the one in which the plane is least steep.
+    axis: usize,
 }
 
-/// Whether a point of a face's plane is inside all edges of the face, seen along the axis in which the plane
-/// is least steep; `None` if it is on an edge, and not outside another edge.
-fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<bool> {
-    let (n, _) = plane(faces, face);
-    let steepest = (0..3).max_by_key(|&i| n[i].abs()).unwrap();
-    let axis = faces.moved_axis(face).unwrap_or(steepest);
-    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-    let corners: Vec<Vector> = faces.corners(face).iter().map(|&c| integer(c)).collect();
-    let mut on_edge = false;
-    for (i, a) in corners.iter().enumerate() {
-        let b = &corners[(i + 1) % corners.len()];
-        let (arm, to) = (minus(b, a), minus(point, &times(a, divisor)));
-        let side = (&arm[j] * &to[k] - &arm[k] * &to[j]) * n[axis].signum();
-        match side.cmp(&IBig::zero()) {
-            Ordering::Less => return Some(false),
-            Ordering::Equal => on_edge = true,
-            Ordering::Greater => {}
-        }
+impl Target {
+    pub(crate) fn new(faces: &Faces, face: u32) -> Self {
+        let (normal, point) = plane(faces, face);
+        let corners = faces.corners(face).iter().map(|&c| integer(c)).collect();
+        let steepest = (0..3).max_by_key(|&i| normal[i].abs()).unwrap();
+        let axis = faces.moved_axis(face).unwrap_or(steepest);
+        Self { normal, point, corners, axis }
     }
-    if on_edge { None } else { Some(true) }
+
+    /// All faces, in order.
+    pub(crate) fn all(faces: &Faces) -> Vec<Self> {
+        (0..faces.len() as u32).map(|face| Self::new(faces, face)).collect()
+    }
+
+    /// The point where a ray meets the plane, and the multiple of its direction, as a quotient; `None` if the
+    /// ray does not meet the plane, or only behind the eye.
+    fn hit(&self, rays: &Rays, ray: &Ray) -> Option<(Point, [IBig; 2])> {
+        let Ray(Point(start, divisor), direction) = ray;
+        let along = dot(&self.normal, direction);
+        let from = dot(&self.normal, &minus(start, &times(&self.point, divisor)));
+        if along.is_zero() || rays.is_perspective() && from.is_zero() {
+            return None;
+        }
+        if rays.front_only && along.is_positive() {
+            return None;
+        }
+        if rays.is_perspective() && along.is_positive() == from.is_positive() {
+            return None;
+        }
+        let sign = along.signum();
+        let point = minus(&times(start, &along), &times(direction, &from));
+        let divisor = divisor * &along * &sign;
+        Some((Point(times(&point, &sign), divisor.clone()), [-from * sign, divisor]))
+    }
+
+    /// Whether a point of the plane is inside all edges; `None` if it is on an edge, and not outside another
+    /// edge.
+    fn within(&self, Point(point, divisor): &Point) -> Option<bool> {
+        let (j, k) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
+        let faces_back = self.normal[self.axis].is_negative();
+        let mut on_edge = false;
+        for (i, a) in self.corners.iter().enumerate() {
+            let b = &self.corners[(i + 1) % self.corners.len()];
+            let arm = |axis: usize| &b[axis] - &a[axis];
+            let to = |axis: usize| &point[axis] - &a[axis] * divisor;
+            let side = arm(j) * to(k) - arm(k) * to(j);
+            match side.cmp(&IBig::zero()) {
+                Ordering::Equal => on_edge = true,
+                side if side.is_lt() != faces_back => return Some(false),
+                _ => {}
+            }
+        }
+        if on_edge { None } else { Some(true) }
+    }
+
+    /// The multiple of its direction at which the ray of a pixel meets the face, if it does.
+    pub(crate) fn meets(&self, rays: &Rays, x: u32, y: u32) -> Option<RBig> {
+        let (point, [numerator, denominator]) = self.hit(rays, &ray_of(rays, x, y, false))?;
+        let inside = self.within(&point).unwrap_or_else(|| {
+            let (point, _) = self.hit(rays, &ray_of(rays, x, y, true)).unwrap();
+            self.within(&point).unwrap()
+        });
+        inside.then(|| RBig::from_parts_signed(numerator, denominator))
+    }
 }
 
 /// The multiple of its direction at which the ray of a pixel meets a face, if it does.
 pub(crate) fn meets(rays: &Rays, faces: &Faces, face: u32, x: u32, y: u32) -> Option<RBig> {
-    let (point, [numerator, denominator]) = hit(rays, faces, face, &ray_of(rays, x, y, false))?;
-    let inside = within(faces, face, &point).unwrap_or_else(|| {
-        let (point, _) = hit(rays, faces, face, &ray_of(rays, x, y, true)).unwrap();
-        within(faces, face, &point).unwrap()
-    });
-    inside.then(|| RBig::from_parts_signed(numerator, denominator))
+    Target::new(faces, face).meets(rays, x, y)
 }
 
 /// Whether the ray of a pixel meets a piece of a face.
@@ -128,8 +155,9 @@ pub(crate) fn meets_piece(
     lines: &[EdgeLine],
     [x, y]: [u32; 2],
 ) -> bool {
+    let target = Target::new(faces, face);
     let side = |moved, cut| {
-        let (Point(point, divisor), _) = hit(rays, faces, face, &ray_of(rays, x, y, moved))?;
+        let (Point(point, divisor), _) = target.hit(rays, &ray_of(rays, x, y, moved))?;
         let (n, p) = named(faces, cut);
         Some(dot(&n, &minus(&point, &times(&p, &divisor))))
     };
@@ -139,7 +167,7 @@ pub(crate) fn meets_piece(
         let value = if value.is_zero() { side(true, cut).expect("a face met") } else { value };
         value.is_negative() == line.is_behind()
     };
-    meets(rays, faces, face, x, y).is_some() && lines.iter().all(is_inside)
+    target.meets(rays, x, y).is_some() && lines.iter().all(is_inside)
 }
 
 /// The normal of a named plane, and a point on the plane.
@@ -164,7 +192,7 @@ pub(crate) fn height(
 ) -> Option<Height> {
     let ray = ray_of(rays, x, y, false);
     let Point(point, divisor) = match face {
-        Some(face) => hit(rays, faces, face, &ray).map(|(point, _)| point),
+        Some(face) => Target::new(faces, face).hit(rays, &ray).map(|(point, _)| point),
         None => rays.is_perspective().then_some(ray.0),
     }?;
     let (n, p) = named(faces, plane);
@@ -187,11 +215,11 @@ impl Height {
     }
 }
 
-/// The nearest face on the ray of a pixel, the later of two at the same distance.
-pub(super) fn nearest(rays: &Rays, faces: &Faces, x: u32, y: u32) -> Option<u32> {
+/// The nearest of all faces on the ray of a pixel, the later of two at the same distance.
+pub(super) fn nearest(rays: &Rays, all: &[Target], x: u32, y: u32) -> Option<u32> {
     let mut best: Option<(u32, RBig)> = None;
-    for face in 0..faces.len() as u32 {
-        if let Some(t) = meets(rays, faces, face, x, y)
+    for (target, face) in all.iter().zip(0..) {
+        if let Some(t) = target.meets(rays, x, y)
             && best.as_ref().is_none_or(|(_, nearest)| t <= *nearest)
         {
             best = Some((face, t));

@@ -71,6 +71,7 @@ fn a_face_covers_the_pixels_whose_rays_meet_it() {
     let mut met = 0;
     for_each_case(1, |rays, faces, case| {
         for face in 0..faces.len() as u32 {
+            let target = oracle::Target::new(faces, face);
             let mut covered = [[false; PIXELS[0] as usize]; PIXELS[1] as usize];
             if let Some(coverage) = Coverage::new(rays, faces, face, Outline::Whole) {
                 coverage.for_each_run(&mut |y, columns| {
@@ -79,7 +80,7 @@ fn a_face_covers_the_pixels_whose_rays_meet_it() {
             }
             for (y, row) in covered.iter().enumerate() {
                 for (x, &covered) in row.iter().enumerate() {
-                    let expected = oracle::meets(rays, faces, face, x as u32, y as u32).is_some();
+                    let expected = target.meets(rays, x as u32, y as u32).is_some();
                     assert_eq!(covered, expected, "face {face} at {x}, {y} of {case}");
                     met += usize::from(expected);
                 }
@@ -128,10 +129,10 @@ fn the_filter_never_contradicts_the_integers() {
 fn the_depth_buffer_is_brute_force_ray_casting() {
     let mut shown = 0;
     for_each_case(3, |rays, faces, case| {
-        let depth = zbuffer(rays, faces);
+        let (depth, targets) = (zbuffer(rays, faces), oracle::Target::all(faces));
         for (i, &face) in depth.image().faces().iter().enumerate() {
             let (x, y) = (i as u32 % PIXELS[0], i as u32 / PIXELS[0]);
-            let expected = oracle::nearest(rays, faces, x, y);
+            let expected = oracle::nearest(rays, &targets, x, y);
             let face = (face != crate::raster::NONE).then_some(face);
             assert_eq!(face, expected, "at {x}, {y} of {case}");
             shown += usize::from(face.is_some());

@@ -154,7 +154,7 @@ fn built_trees_are_valid_and_have_the_counted_cuts() {
 
 #[test]
 fn cuts_are_counted_over_all_jobs_of_a_build() {
-    let tree = build(&scene::random_triangles(4000, 5), Heuristic::default());
+    let tree = build(&scene::random_triangles(3000, 5), Heuristic::default());
     let stats = tree.stats();
     assert!(stats.splits > 5000, "{stats:?}");
     assert_eq!((stats.fragments, verdict(&tree)), (stats.faces + stats.splits, String::new()));

@@ -9,7 +9,7 @@ use dashu_ratio::RBig;
 use super::cameras;
 use crate::exact::Faces;
 use crate::paint::Pieces;
-use crate::raster::tests::oracle::meets;
+use crate::raster::tests::oracle::Target;
 use crate::raster::{Rays, for_each_run};
 use crate::scene::Scene;
 use crate::tree::BspTree;
@@ -39,9 +39,10 @@ type Hits = Vec<HashMap<u32, RBig>>;
 fn hits(rays: &Rays, faces: &Faces) -> Hits {
     let [width, height] = rays.size();
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let all = Target::all(faces);
     let of_pixel = |(x, y)| {
-        let all = 0..faces.len() as u32;
-        all.filter_map(|face| Some((face, meets(rays, faces, face, x, y)?))).collect()
+        let numbered = all.iter().zip(0..);
+        numbered.filter_map(|(target, face)| Some((face, target.meets(rays, x, y)?))).collect()
     };
     pixels.map(of_pixel).collect()
 }
