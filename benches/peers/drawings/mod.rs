@@ -132,13 +132,10 @@ fn judged(tree: &BspTree, camera: &Camera, scene: &Scene, name: &str) -> [String
     let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
     let visible = map.polygons().count();
     let mut score = Score::default();
-    let mut checked = fill::check(tree, camera, &mut score);
     // In real scenes, some polygons lie within the tolerance of each other. There the tree's order decides
     // which one is visible, not the ray.
-    if !is_file(name) {
-        checked = checked.and_then(|()| fill::check_rays(tree, camera, &mut score));
-    }
-    checked.unwrap_or_else(|fault| panic!("{name}: {fault}"));
+    let check = if is_file(name) { fill::check } else { fill::check_with_rays };
+    check(tree, camera, &mut score).unwrap_or_else(|fault| panic!("{name}: {fault}"));
     assert_eq!(score.paths, visible, "{name}");
     // For each pixel, the drawing and the map are judged.
     assert!(score.unsure * 50 < score.pixels, "{name}: {score:?}");

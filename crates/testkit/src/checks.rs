@@ -56,7 +56,7 @@ fn chain(points: &[Corner], edges: &[[Corner; 2]]) -> BTreeMap<[Corner; 2], i32>
         let [low, high] = if a < b { [a, b] } else { [b, a] };
         let along = difference(&high, &low);
         let on_edge = |p: &&Corner| {
-            (low..=high).contains(*p) && product(&along, &difference(*p, &low)) == [0; 3]
+            (low..=high).contains(*p) && product(&along, &difference(p, &low)) == [0; 3]
         };
         let mut stops: Vec<Corner> = points.iter().filter(on_edge).copied().collect();
         stops.sort_unstable();
