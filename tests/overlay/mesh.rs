@@ -38,8 +38,10 @@ fn one_list_of_indices_draws_the_order_of_both() {
         let extent = hard::extent(&scene.polygons);
         let corners = scene.polygons.iter().flatten();
         let largest = corners.map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
-        // Vertices are rounded, and corners that the tolerance moved are drawn at their given positions.
-        let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
+        // Vertices are rounded, and corners that the tolerance moved are drawn at their given positions. The
+        // tolerance of an overlay may be larger than the tree's.
+        let faces = overlay.faces();
+        let tolerance = faces.lattice().length_to_world(faces.tolerance());
         let slack = (1e-12 * extent + 1e-14 * largest + 8.0 * tolerance) * extent;
         let eye = Viewpoint::Eye(Dice(seed).point(-2.0, 2.0) * extent);
         let culling = Culling::NONE.with_facing(Facing::Front);
