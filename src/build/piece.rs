@@ -4,7 +4,37 @@ use glam::DVec3;
 
 use crate::Error;
 use crate::exact::{Faces, PreparedPlane, Side, Vertex, VertexKind, split};
-use crate::memory::reserve;
+use crate::memory::{push, reserve};
+
+/// Moves the vertices of pieces together, without those between them, from `base` on in an arena. Their order stays.
+/// `lens` are lengths of the arena, in ascending order, that become the lengths with the same pieces.
+pub(super) fn compact<'p>(
+    arena: &mut Vec<Vertex>,
+    base: usize,
+    pieces: impl Iterator<Item = &'p mut Piece>,
+    lens: impl Iterator<Item = &'p mut usize>,
+) -> Result<(), Error> {
+    let mut moved = Vec::new();
+    let (least, _) = pieces.size_hint();
+    reserve(&mut moved, least)?;
+    for piece in pieces.filter(|piece| piece.len > 0 && piece.start as usize >= base) {
+        push(&mut moved, piece)?;
+    }
+    moved.sort_unstable_by_key(|piece| piece.start);
+    let (mut end, mut lens) = (base, lens.skip_while(|len| **len <= base).peekable());
+    for piece in moved {
+        let start = piece.start as usize;
+        while let Some(len) = lens.next_if(|len| **len <= start) {
+            *len = end;
+        }
+        arena.copy_within(start..start + piece.cut_len(), end);
+        piece.start = end as u32;
+        end += piece.cut_len();
+    }
+    lens.for_each(|len| *len = end);
+    arena.truncate(end);
+    Ok(())
+}
 
 /// A piece of a face, before it is stored in a node.
 #[derive(Clone, Copy, Debug)]
@@ -253,5 +283,60 @@ impl Splitter {
         arena.extend_from_slice(back);
         let front_part = Piece::part(piece, front, start);
         Ok([front_part, Piece::part(piece, back, start + front.len())])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Piece, compact};
+    use crate::exact::{Faces, Vertex};
+    use crate::random::SplitMix64;
+
+    /// Random pieces of an arena keep their vertices, and each length of the arena still ends after the same pieces.
+    #[test]
+    fn compacting_keeps_the_vertices_and_the_order_of_pieces() {
+        let triangles: Vec<_> = (0..300)
+            .map(|i| [[f64::from(i), 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+            .collect();
+        let faces = Faces::new(&triangles, None).unwrap().0;
+        let mut random = SplitMix64::new(3);
+        let mut removed = 0;
+        for base in [0, 60, 300] {
+            let mut arena: Vec<Vertex> =
+                (0..300).flat_map(|face| Vertex::corners(&faces, face)).collect();
+            let all: Vec<Piece> = (0..300)
+                .map(|face| Piece::thin(face, &arena[3 * face as usize..][..3], 3 * face as usize))
+                .collect();
+            let is_kept = all.iter().map(|_| random.next() % 3 > 0);
+            let (mut pieces, ends): (Vec<Piece>, Vec<usize>) = all
+                .iter()
+                .zip(is_kept)
+                .filter(|&(piece, is_kept)| is_kept || (piece.start as usize) < base)
+                .map(|(piece, _)| (*piece, piece.start as usize + 3))
+                .unzip();
+            // Lengths between which are no pieces, some, and many.
+            let mut lens: Vec<usize> = [0, base, base + 3, 450, 453, 900].into();
+            lens.sort_unstable();
+            let within: Vec<_> =
+                lens.iter().map(|len| ends.iter().filter(|end| *end <= len).count()).collect();
+            let before = arena.len();
+            pieces.reverse();
+            compact(&mut arena, base, pieces.iter_mut(), lens.iter_mut()).unwrap();
+            pieces.reverse();
+            removed += before - arena.len();
+            for piece in &pieces {
+                let expected: Vec<_> =
+                    Vertex::corners(&faces, piece.face).map(|v| v.position()).collect();
+                let found = piece.cut_vertices(&arena).unwrap().iter().map(|v| v.position());
+                assert!(found.eq(expected), "{}", piece.face);
+            }
+            assert!(pieces.is_sorted_by_key(|piece| piece.start));
+            let ends: Vec<_> = pieces.iter().map(|piece| piece.start as usize + 3).collect();
+            let after: Vec<_> =
+                lens.iter().map(|len| ends.iter().filter(|end| *end <= len).count()).collect();
+            assert_eq!(within, after, "{lens:?}");
+            assert_eq!(arena.len(), *ends.iter().max().unwrap());
+        }
+        assert!(removed > 300, "{removed}");
     }
 }

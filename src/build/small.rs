@@ -1,7 +1,7 @@
 //! Builds the subtree of a small set from a table of the sides of all pieces at all planes.
 
 use super::choose::{ChooseContext, CutBy, Mask, Part, Set, Sides, Table};
-use super::piece::Piece;
+use super::piece::{Piece, compact};
 use super::subtree::{Builder, CUT, Shared};
 use crate::error::Error;
 use crate::exact::{PlaneId, PreparedPlane};
@@ -51,6 +51,7 @@ impl Builder {
         let set = Set::new(shared.faces, &self.pieces[start..], &self.arena).with(shared.planes);
         let work = set.len() * set.len() / 8;
         shared.rules.watch.work(work)?;
+        let base = self.arena.len();
         let mut next = Some((self.small.table.fill(&set, shared.rules.tuning), depth));
         self.pieces.truncate(start);
         self.small.pending.clear();
@@ -65,6 +66,9 @@ impl Builder {
             };
             let count = part.pieces.count();
             shared.rules.watch.work(count * count / 64)?;
+            if self.arena.len() > self.compact_at {
+                self.compact_small(shared, base, &part)?;
+            }
             let row = self.small.table.best(&mut part, shared.rules.tuning);
             let Sides { front, back, .. } = self.small.table.sides(row, &part);
             if front.is_empty() || back.is_empty() {
@@ -103,11 +107,32 @@ impl Builder {
         Some((part, depth))
     }
 
-    /// Separates pieces whose planes have all other pieces of a part on one side, in one pass. Returns the
-    /// remaining pieces and the number of nodes.
-    ///
-    /// Separating such a piece first never adds a fragment: a tree of the whole set, without the piece and its
-    /// plane, is a tree of the remaining pieces with no more fragments.
+    /// [Compacts](compact) the arena from `base` on, the arena's length before the first cut. `part` is the part
+    /// that is divided next.
+    fn compact_small(
+        &mut self,
+        shared: &Shared<'_>,
+        base: usize,
+        part: &Part,
+    ) -> Result<(), Error> {
+        let SmallSet { table, pending, cut } = &mut self.small;
+        // Each place in the table is used by one part at most: a pending part whose piece was cut has it in the list.
+        let (mut used, mut end) = (part.pieces, cut.len());
+        for pending in pending.iter().rev() {
+            let is_cut: Mask = cut[pending.cut..end].iter().map(|&(place, ..)| place).collect();
+            used = used | pending.part.pieces & !is_cut;
+            end = pending.cut;
+        }
+        let whole = table.pieces.iter_mut().enumerate();
+        let whole = whole.filter(|(place, _)| used.contains(*place)).map(|(_, piece)| piece);
+        let pieces = whole.chain(cut.iter_mut().map(|(_, piece, _)| piece));
+        let lens = pending.iter_mut().map(|pending| &mut pending.arena);
+        compact(&mut self.arena, base, pieces, lens)?;
+        self.compacted(shared)
+    }
+
+    /// Separates pieces whose planes have all other pieces of a part on one side, in one pass: see
+    /// `choose/peel.rs`. Returns the remaining pieces and the number of nodes.
     fn peel(
         &mut self,
         shared: &Shared<'_>,

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::choose::{Choice, ChooseContext, Chooser, Peeled, Set, Tuning, settle};
 use super::jobs::{Job, Output, is_worth_a_job};
 use super::options::BuildOptions;
-use super::piece::{Division, Piece, Splitter};
+use super::piece::{Division, Piece, Splitter, compact};
 use super::small::SmallSet;
 use crate::error::{Error, Kind};
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
@@ -94,7 +94,7 @@ pub(in crate::build) struct Builder {
     pub(in crate::build) arena: Vec<Vertex>,
     pending: Vec<Pending>,
     /// The length at which the arena is next compacted.
-    compact_at: usize,
+    pub(super) compact_at: usize,
     pub(in crate::build) output: Output,
     /// The plane that divides the current set, and the sides of the set's pieces.
     division: Division,
@@ -184,19 +184,18 @@ impl Builder {
         self.emit(shared, start, pending.depth + 1, hand_over)
     }
 
-    /// Removes the vertices of pieces that have since been cut. So the arena is at most twice as large as the
-    /// remaining sets need, however often one piece is cut.
+    /// [Compacts](compact) the arena. So it is at most twice as large as the remaining sets need, however often one
+    /// piece is cut.
     fn compact(&mut self, shared: &Shared<'_>) -> Result<(), Error> {
-        let mut arena = Vec::new();
         // The pieces of sets that other jobs build have been removed.
-        reserve(&mut arena, self.pieces.iter().map(Piece::cut_len).sum())?;
-        for pending in &mut self.pending {
-            for piece in &mut self.pieces[pending.range.clone()] {
-                *piece = piece.copied(&self.arena, &mut arena);
-            }
-            pending.arena = arena.len();
-        }
-        self.arena = arena;
+        let pieces = self.pieces.iter_mut();
+        let lens = self.pending.iter_mut().map(|pending| &mut pending.arena);
+        compact(&mut self.arena, 0, pieces, lens)?;
+        self.compacted(shared)
+    }
+
+    /// Sets the length at which the arena is compacted next.
+    pub(super) fn compacted(&mut self, shared: &Shared<'_>) -> Result<(), Error> {
         self.compact_at = COMPACT.max(2 * self.arena.len());
         // Pieces index their vertices with 32 bits.
         let limit = shared.options.max_fragments;

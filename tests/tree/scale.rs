@@ -5,7 +5,7 @@ use std::thread;
 use testkit::orders;
 use testkit::prelude::*;
 use testkit::scenes::scene_of;
-use testkit::shapes::rectangle;
+use testkit::shapes::{rectangle, regular, rotation};
 
 const LARGE: u32 = 100_000;
 
@@ -142,6 +142,25 @@ fn coplanar_polygons_share_one_node() {
     for heuristic in [Heuristic::First, Heuristic::Sampled { candidates: 16 }] {
         assert_input_order(&mosaic, BuildOptions::DEFAULT.with_heuristic(heuristic));
     }
+}
+
+/// Their vertices are far more than those of the pieces that are left: they are removed while small sets are divided.
+#[test]
+fn polygons_of_many_corners_are_cut_as_often_as_polygons_of_few() {
+    let discs = |corners: usize| {
+        let mut dice = Dice(7);
+        let mut disc = || {
+            let turn = rotation(dice.point(-3.0, 3.0).to_array());
+            regular(corners, turn, dice.point(-1.5, 1.5))
+        };
+        scene_of("discs", std::iter::repeat_with(&mut disc).take(200))
+    };
+    let [few, many] = [18, 150].map(|corners| {
+        let tree = BspTree::build(discs(corners).polygons()).unwrap();
+        assert_eq!(tree.validate(), Ok(()), "{corners} corners");
+        tree.len()
+    });
+    assert!(few > 3000 && many < few + few / 8, "{few} and {many} fragments");
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::progress::Watch;
 /// The largest number of faces whose planes are tried, including the first plane if it is a face's. Too small:
 /// of several pieces, each coplanar only with the next, two lose input order. Too large: a set that is made for
 /// it is classified so often.
-pub(super) const MOST_PLANES: usize = 8;
+const MOST_PLANES: usize = 8;
 
 /// Classifies a set by a plane. If the plane would separate coplanar pieces that overlap, or cut one of them,
 /// classifies the set by the plane of the larger piece instead.
@@ -29,16 +29,19 @@ pub(in crate::build) fn settle(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
     division: &mut Division,
-    mut plane: PlaneId,
+    plane: PlaneId,
 ) -> Result<(), Error> {
-    let mut tried: SmallVec<[u32; MOST_PLANES]> = SmallVec::new();
     let mut on: SmallVec<[u32; 16]> = SmallVec::new();
-    loop {
-        if division.plane.is_none() {
+    follow_rivals(plane, |plane, tried| {
+        if division.plane.is_none_or(|divided| divided.id() != plane) {
             rules.watch.work(set.pieces.len())?;
             set.divide(plane, usize::MAX, division);
         }
-        let Some(prepared) = &division.plane else { return Ok(()) };
+        let face = match plane.kind() {
+            PlaneKind::Face(face) => Some(face),
+            PlaneKind::Axis(..) => None,
+        };
+        let Some(prepared) = &division.plane else { return Ok((face, None)) };
         on.clear();
         if division.count(Side::Coplanar) > 0 && !division.near.is_empty() {
             let sides = (0..).zip(&division.sides);
@@ -47,17 +50,28 @@ pub(in crate::build) fn settle(
         let is_cut = |piece: u32| division.sides[piece as usize] == Side::Spanning;
         let rival = match on.is_empty() {
             true => None,
-            false => larger(set, prepared, [&on, &division.near], is_cut, &tried, rules.watch)?,
+            false => larger(set, prepared, [&on, &division.near], is_cut, tried, rules.watch)?,
         };
-        if let PlaneKind::Face(face) = plane.kind() {
-            tried.push(face);
+        Ok((face, rival.map(PlaneId::face)))
+    })?;
+    Ok(())
+}
+
+/// Follows planes from rival to rival, and returns the last one: see [`settle`]. The function returns the face
+/// of a plane, if the plane is a face's, and the plane that replaces it. It is also given the faces that were
+/// tried.
+pub(super) fn follow_rivals<P: Copy>(
+    mut plane: P,
+    mut rival: impl FnMut(P, &[u32]) -> Result<(Option<u32>, Option<P>), Error>,
+) -> Result<P, Error> {
+    let mut tried: SmallVec<[u32; MOST_PLANES]> = SmallVec::new();
+    loop {
+        let (face, next) = rival(plane, &tried)?;
+        tried.extend(face);
+        match next {
+            Some(next) if tried.len() < MOST_PLANES => plane = next,
+            _ => return Ok(plane),
         }
-        let Some(rival) = rival else { return Ok(()) };
-        if tried.len() == MOST_PLANES {
-            return Ok(());
-        }
-        division.plane = None;
-        plane = PlaneId::face(rival);
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use smallvec::{SmallVec, smallvec};
 
 use super::coplanar::larger;
-use super::set::{LANES, PackedBox, PackedPieces, PackedPlane, Reach, Set};
+use super::set::{LANES, PackedBox, PackedPieces, PackedPlane, Set};
 use super::tuning::Tuning;
 use crate::bits::bits;
 use crate::exact::{PlaneId, Side};
@@ -199,15 +199,17 @@ impl Search<'_, '_> {
     fn see(&mut self, p: usize, plane: &PackedPlane, group: usize) {
         let others = if p / LANES == group { !(1 << (p % LANES)) } else { u8::MAX };
         let left = self.lists.left[group] & others;
-        let Reach { front, back, near } = self.sketch.reach(plane, group);
-        let first = (group * LANES) as u32;
-        if front & left != 0 {
-            self.lists.witnesses[FRONT] = first + (front & left).trailing_zeros();
-        }
-        if back & left != 0 {
-            self.lists.witnesses[BACK] = first + (back & left).trailing_zeros();
-        }
-        self.lists.near.extend(bits((near & left).into()).map(|bit| first + bit as u32));
+        let Peeler { witnesses, near, .. } = &mut *self.lists;
+        self.sketch.for_each_reach(plane, group..group + 1, |_, reach| {
+            let first = (group * LANES) as u32;
+            if reach.front & left != 0 {
+                witnesses[FRONT] = first + (reach.front & left).trailing_zeros();
+            }
+            if reach.back & left != 0 {
+                witnesses[BACK] = first + (reach.back & left).trailing_zeros();
+            }
+            near.extend(bits((reach.near & left).into()).map(|bit| first + bit as u32));
+        });
     }
 
     /// Separates a piece, and the pieces on its plane, if all other remaining pieces are on one side of the
@@ -258,8 +260,8 @@ impl Search<'_, '_> {
     }
 }
 
-/// Writes the numbers of a set's pieces, sorted so that the pieces of each group, and of each range of groups, are near
-/// one another. Repeatedly divides the pieces in half along the longest side of their box.
+/// Writes the numbers of a set's pieces, sorted so that the pieces of each group, and of each range of groups,
+/// are near one another. Repeatedly divides the pieces in half along the longest side of their box.
 pub(super) fn arrange(set: &Set<'_>, groups_per_box: usize, order: &mut Vec<usize>) {
     order.clear();
     order.extend(0..set.len());

@@ -192,20 +192,6 @@ impl PackedPieces {
         }
     }
 
-    /// Compares a group's pieces with a plane. Bits of empty lanes mean nothing.
-    #[inline]
-    pub(super) fn reach(&self, plane: &PackedPlane, group: usize) -> Reach {
-        let plane = Splat::new(plane, self.slack);
-        let (low, high) = plane.extents(&self.rows[self.rows_of(group..group + 1)]);
-        let tolerance = Vec4::splat(self.tolerance);
-        Reach {
-            front: high.cmpgt(plane.above).bitmask() as u8,
-            back: low.cmplt(plane.below).bitmask() as u8,
-            near: (low.cmple(plane.above + tolerance).bitmask()
-                & high.cmpge(plane.below - tolerance).bitmask()) as u8,
-        }
-    }
-
     /// A bit for each lane of a group that holds a piece.
     pub(super) fn lanes(&self, group: usize) -> u8 {
         self.lanes[group].cmpgt(Vec4::ZERO).bitmask() as u8
@@ -304,8 +290,8 @@ pub(crate) struct Set<'a> {
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
     /// Along each axis, the smallest end and the largest start of a piece.
-    pub(super) first_end: [f64; 3],
-    pub(super) last_begin: [f64; 3],
+    first_end: [f64; 3],
+    last_begin: [f64; 3],
 }
 
 impl<'a> Set<'a> {
@@ -329,6 +315,14 @@ impl<'a> Set<'a> {
     /// The same set, with the planes of all faces.
     pub(in crate::build) fn with(self, planes: &'a [PreparedPlane]) -> Self {
         Self { planes, ..self }
+    }
+
+    /// The same set with its pieces in another list. The box stays.
+    pub(super) fn over<'b>(&self, pieces: &'b [Piece]) -> Set<'b>
+    where
+        'a: 'b,
+    {
+        Set { pieces, ..*self }
     }
 
     pub(in crate::build) fn len(&self) -> usize {

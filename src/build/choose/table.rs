@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 
 use super::ChooseContext;
 use super::axis_planes::FreePlanes;
-use super::coplanar::{MOST_PLANES, larger};
+use super::coplanar::{follow_rivals, larger};
 use super::cost::{Cost, Counts, work};
 use super::peel::arrange;
 use super::set::{LANES, PackedBox, PackedPieces, PackedPlane, Reach, Set};
@@ -28,12 +28,12 @@ const WORDS: usize = 4;
 /// The most pieces of a table.
 const MOST_PIECES: usize = 64 * WORDS;
 
-/// The most axis planes of a table, along each axis.
+/// The most axis planes of a table, along each axis: a part has a bit for each, of 32.
 const MOST_AXIS_PLANES: usize = 10;
 
-/// The most corners of all pieces of a table. The corners of pieces that are cut are kept until their part of
-/// the set is finished.
-const MOST_CORNERS: usize = 16 * MOST_PIECES;
+/// The most corners of all pieces of a table. Too large: a long wait for a cancelled build to end. Too small: sets
+/// of polygons with many corners are divided with less care.
+const MOST_CORNERS: usize = 1 << 16;
 
 /// The number of groups of pieces that are compared with a plane together, if a box around them is on one side.
 const BLOCK: usize = 4;
@@ -95,6 +95,14 @@ impl Mask {
         let is_full = |&word: &usize| self.0[word] != 0;
         let first = (0..WORDS).find(is_full).unwrap_or(0);
         first..(0..WORDS).rfind(is_full).map_or(first, |last| last + 1)
+    }
+}
+
+impl FromIterator<usize> for Mask {
+    fn from_iter<I: IntoIterator<Item = usize>>(pieces: I) -> Self {
+        let mut mask = Self::default();
+        pieces.into_iter().for_each(|piece| mask.set(piece, true));
+        mask
     }
 }
 
@@ -241,7 +249,7 @@ impl Table {
         // Pieces near one another are in one block.
         arrange(set, BLOCK, &mut self.order);
         pieces.extend(self.order.iter().map(|&piece| set.pieces[piece]));
-        let set = &Set { pieces: &pieces, ..*set };
+        let set = &set.over(&pieces);
         self.packed.reset(set);
         self.packed.extend(set, 0..n);
         let groups = self.packed.groups();
@@ -484,20 +492,13 @@ impl Table {
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
-        mut row: usize,
+        row: usize,
         part: &Part,
     ) -> Result<usize, Error> {
-        let mut tried: SmallVec<[u32; MOST_PLANES]> = SmallVec::new();
-        loop {
-            let rival = self.rival(rules, set, row, part, &tried)?;
-            if row < self.len() {
-                tried.push(self.pieces[row].face);
-            }
-            match rival {
-                Some(rival) if tried.len() < MOST_PLANES => row = rival,
-                _ => return Ok(row),
-            }
-        }
+        follow_rivals(row, |row, tried| {
+            let rival = self.rival(rules, set, row, part, tried)?;
+            Ok((self.pieces.get(row).map(|piece| piece.face), rival))
+        })
     }
 
     /// The row of the largest piece of a pair of coplanar pieces that the plane of a row separates.
@@ -530,7 +531,7 @@ impl Table {
         self.beside.clear();
         self.beside.extend(beside.iter().map(|piece| piece as u32));
         let is_cut = |piece: u32| (front & back).contains(piece as usize);
-        let set = Set { pieces: &self.pieces, ..*set };
+        let set = set.over(&self.pieces);
         let lists: [&[u32]; 2] = [&self.on, &self.beside];
         let face = larger(&set, plane, lists, is_cut, tried, rules.watch)?;
         let is_of = |face: u32| (on | beside).iter().find(|&piece| self.pieces[piece].face == face);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::tests::{Fixture, grid, triangles};
-use super::{LANES, PackedPieces, Set};
+use super::{LANES, PackedPieces, Reach, Set};
 use crate::exact::{PlaneId, Side};
 use crate::random::SplitMix64;
 
@@ -23,16 +23,18 @@ fn assert_certain(name: &str, fixture: &Fixture) -> usize {
         let plane = sketch.plane(&set, own);
         let prepared = set.prepare(set.own_plane(own));
         for piece in 0..set.len() {
-            let reach = sketch.reach(&plane, piece / LANES);
-            let [front, back, near] =
-                [reach.front, reach.back, reach.near].map(|bits| bits >> (piece % LANES) & 1 == 1);
+            let (mut bits, group) = ([0; 3], piece / LANES);
+            sketch.for_each_reach(&plane, group..group + 1, |_, Reach { front, back, near }| {
+                bits = [front, back, near];
+            });
+            let [front, back, near] = bits.map(|bits| bits >> (piece % LANES) & 1 == 1);
             let is_certain = match set.classify(&prepared, piece) {
                 Side::Front => !back,
                 Side::Back => !front,
                 Side::Coplanar => !front && !back && near,
                 Side::Spanning => near,
             };
-            assert!(is_certain, "{name}: piece {piece} at the plane of {own}: {reach:?}");
+            assert!(is_certain, "{name}: piece {piece} at the plane of {own}: {bits:?}");
             assert!(front || back || near, "{name}: {piece} is nowhere");
             let may_be_on = sketch.may_be_on(&set, own, piece);
             assert!(may_be_on || set.classify(&prepared, piece) != Side::Coplanar, "{name}");
