@@ -5,7 +5,7 @@ use binspace::drawing::Path;
 use testkit::prelude::*;
 
 /// The distance of a point from a segment, in pixels.
-fn distance(at: DVec2, [a, b]: [DVec2; 2]) -> f64 {
+pub(super) fn distance(at: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = ((at - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
     (a + (b - a) * along).distance(at)
 }
