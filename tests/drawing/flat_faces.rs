@@ -42,6 +42,13 @@ fn length(runs: &[EdgeRun]) -> f64 {
         .sum()
 }
 
+/// Whether the picture of a triangle is narrower than a pixel.
+fn is_thin(triangle: &[DVec3], camera: &Camera) -> bool {
+    let [a, b, c] = [0, 1, 2].map(|k| DVec2::from(camera.project(triangle[k]).unwrap()));
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    (b - a).perp_dot(c - a).abs() < longest
+}
+
 #[test]
 fn flat_sides_of_triangles_have_whole_crossings_and_no_edges_inside() {
     let (mut crossed, mut creases) = (0, 0);
@@ -53,15 +60,26 @@ fn flat_sides_of_triangles_have_whole_crossings_and_no_edges_inside() {
         let eye = dice.point(-1.0, 1.0).normalize() * 8.0;
         let size = [400, 300];
         let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.6, size).unwrap();
-        let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
+        let step = 1e-6;
+        let round = |p: &DVec3| (p / step).round() * step;
+        let decimals: Vec<Vec<DVec3>> =
+            polygons.iter().map(|polygon| polygon.iter().map(round).collect()).collect();
+        let default = BuildOptions::DEFAULT;
+        let exact = default.clone().with_tolerance(0.0);
+        // As a reader of decimals builds it.
+        let of_decimals = default.with_tolerance(4.0 * step);
         for (name, tree, exactly) in [
-            ("f64", BspTree::build(&polygons).unwrap(), exact.clone().build(&polygons).unwrap()),
+            ("f64", BspTree::build(&polygons).unwrap(), exact.build(&polygons).unwrap()),
             ("f32", BspTree::build(&single).unwrap(), exact.build(&single).unwrap()),
+            ("decimals", of_decimals.build(&decimals).unwrap(), exact.build(&decimals).unwrap()),
         ] {
-            let lengths = [&tree, &exactly]
+            // The picture of a face that is nearly seen edge-on is as narrow as the decimals: an end may be anywhere.
+            if name == "decimals" && polygons.iter().any(|p| is_thin(p, &camera)) {
+                continue;
+            }
+            let [found, expected] = [&tree, &exactly]
                 .map(|tree| length(&map_of(tree, &camera).crossings(Hidden::Skip).unwrap()));
-            crossed += usize::from(lengths[1] > 10.0);
-            let [found, expected] = lengths;
+            crossed += usize::from(expected > 10.0);
             assert!((found - expected).abs() < 0.02, "{seed}, {name}: {found} for {expected}");
             for run in map_of(&tree, &camera).edges(Hidden::Keep).unwrap() {
                 if let EdgeKind::Crease(angle) = run.kind {
@@ -71,5 +89,5 @@ fn flat_sides_of_triangles_have_whole_crossings_and_no_edges_inside() {
             }
         }
     }
-    enough!(crossed > 60, creases > 1000; "{crossed} {creases}");
+    enough!(crossed > 85, creases > 1500; "{crossed} {creases}");
 }
