@@ -63,6 +63,37 @@ impl Cell {
         Self::rectangle(lines, low, high)
     }
 
+    /// The cell with these sides, in order or in reverse order; `None` if its rounded corners do not tell which.
+    /// Sides that follow one another on one line become one side.
+    pub(super) fn between(lines: &LineTable<'_>, halves: &[HalfPlane]) -> Option<Self> {
+        let mut halves: SmallVec<[HalfPlane; 8]> = halves.into();
+        halves.dedup();
+        while halves.len() > 1 && halves.first() == halves.last() {
+            halves.pop();
+        }
+        let n = halves.len();
+        let of = |halves: &[HalfPlane]| {
+            let before = halves.iter().cycle().skip(n - 1);
+            let sides = before.zip(halves).map(|(&before, &half)| {
+                let start = Corner::of(lines, [before, half]);
+                Side { half, start }
+            });
+            Self { sides: sides.collect() }
+        };
+        let cell = (n >= 3).then(|| of(&halves))?;
+        let [low, high] = cell.around();
+        let size = (high[0] - low[0]).max(high[1] - low[1]);
+        let radius = cell.sides.iter().map(|side| side.start.radius).fold(0.0, f64::max);
+        let area = cell.double_area();
+        // Each corner is off by its radius, and rounded once more to a vector.
+        let is_certain = area.abs() > 8.0 * n as f64 * size * (radius + 1e-9);
+        if is_certain && area < 0.0 {
+            halves.reverse();
+            return Some(of(&halves));
+        }
+        is_certain.then_some(cell)
+    }
+
     /// The part of the cell inside all half-planes; `None` if there is no such part. Appends convex parts of
     /// the rest of the cell to `outside`.
     pub(super) fn within(
@@ -279,14 +310,64 @@ pub(super) fn common(a: &Rect, b: &Rect) -> Rect {
 
 #[cfg(test)]
 mod tests {
-    use super::Corner;
+    use super::{Cell, Corner};
     use crate::drawing::lines::HalfPlane;
     use crate::drawing::lines::meeting;
     use crate::drawing::lines::tests::{all_lines, quads};
+    use crate::progress::Watch;
     use crate::random::SplitMix64;
     use crate::tree::BspTree;
     use crate::view::Camera;
     use glam::DVec3;
+
+    /// Faces inside the picture are the same, corner by corner, as if they were cut out of the picture; faces that
+    /// reach beyond it are not counted as inside. Some corners lie on an edge.
+    #[test]
+    fn the_sides_of_a_face_in_the_picture_are_its_edges() {
+        let mut random = SplitMix64::new(5);
+        let (mut equal, mut beyond, mut collinear) = (0, 0, 0);
+        for round in 0..60 {
+            let faces: Vec<Vec<DVec3>> = (0..40)
+                .map(|face| {
+                    let [at, u, v] =
+                        [(); 3].map(|()| (random.point(-1.0, 1.0) * 1024.0).round() / 1024.0);
+                    let size = [1.0, 0.125, 1.0 / 1024.0][face % 3];
+                    let corners = [at, at + u * size, at + (u + v) * size, at + v * size];
+                    let middle = 0.5 * (corners[0] + corners[1]);
+                    let [a, b, c, d] = corners;
+                    if face % 4 == 0 { vec![a, middle, b, c, d] } else { vec![a, b, c, d] }
+                })
+                .collect();
+            let tree = BspTree::build(&faces).unwrap();
+            let eye = random.point(-1.0, 1.0).normalize() * 4.0;
+            let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.5, [320, 200]).unwrap();
+            let primitives = all_lines(&tree, &camera).unwrap();
+            let lines = &primitives.lines;
+            for face in (0..tree.faces().len() as u32).filter(|&face| primitives.sees(face)) {
+                let outline = primitives.outline(face);
+                let watch = Watch::default();
+                let cut = Cell::picture(lines).within(lines, outline, None, &watch).unwrap();
+                let is_bounded_by_edges = cut
+                    .as_ref()
+                    .is_some_and(|cut| cut.sides.iter().all(|side| outline.contains(&side.half)));
+                if !primitives.is_inside(face) {
+                    beyond += usize::from(!is_bounded_by_edges);
+                    continue;
+                }
+                let (Some(whole), Some(cut)) = (Cell::between(lines, outline), cut) else {
+                    continue;
+                };
+                let first = cut.sides.iter().position(|side| side.half == whole.sides[0].half);
+                let mut sides = cut.sides.clone();
+                sides.rotate_left(first.expect("the same sides"));
+                let of = |side: &super::Side| (side.half, side.start.at);
+                assert!(sides.iter().map(of).eq(whole.sides.iter().map(of)), "{round}: {face}");
+                collinear += usize::from(sides.len() < outline.len());
+                equal += 1;
+            }
+        }
+        assert!(equal > 800 && beyond > 100 && collinear > 100, "{equal} {beyond} {collinear}");
+    }
 
     /// The distance of each corner from the intersection in integers is at most the corner's radius. If
     /// floats decide on which side of a third line a corner lies, the side is correct.

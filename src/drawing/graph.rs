@@ -114,19 +114,22 @@ pub(super) fn order_by_rank(
     let count = ranks.len();
     let of = |node: u32| &ranks[node as usize];
     let cut = ranks.iter().filter(|ranks| !ranks.is_one()).count();
+    // The chain alone.
+    if cut == 0 {
+        let mut order: Vec<u32> = (0..count as u32).collect();
+        sort_by(&mut order, watch, |&a, &b| of(a).shown[0].cmp(&of(b).shown[0]))?;
+        return Ok(Ordered { order, is_clipped: vec![false; count] });
+    }
     // If most polygons have several pieces, nearly all polygons are in one component.
     if 2 * cut > count {
         let firsts: Vec<u32> = ranks.iter().map(|ranks| ranks.shown[0]).collect();
         return order(count, &pairs(Wanted::ALL)?, &firsts, &|_| true, watch);
     }
-    let around = match cut {
-        0 => vec![],
-        _ => pairs(Wanted {
-            is_marked: &|node| !of(node).is_one(),
-            needs_both: false,
-            is_wanted: &|Pair { below, above }| of(below).is_around(of(above)),
-        })?,
-    };
+    let around = pairs(Wanted {
+        is_marked: &|node| !of(node).is_one(),
+        needs_both: false,
+        is_wanted: &|Pair { below, above }| of(below).is_around(of(above)),
+    })?;
     // The places where polygons end.
     let mut ends: Vec<u32> = ranks.iter().map(|ranks| ranks.all[1]).collect();
     sort_unique(&mut ends, watch)?;

@@ -226,6 +226,23 @@ impl<'s, 't> PolygonEdges<'s, 't> {
     }
 }
 
+/// Adds the part of a face in the picture to an area.
+pub(super) fn add_face(
+    primitives: &Primitives<'_>,
+    face: u32,
+    area: &mut Area,
+    watch: &Watch<'_>,
+) -> Result<(), Error> {
+    let (lines, outline) = (&primitives.lines, primitives.outline(face));
+    if primitives.is_inside(face)
+        && let Some(whole) = Cell::between(lines, outline)
+    {
+        watch.work(outline.len())?;
+        return area.push(&whole.sides);
+    }
+    add_piece(lines, outline, area, watch)
+}
+
 /// Adds the part of a convex piece in the picture to an area.
 pub(super) fn add_piece(
     lines: &LineTable<'_>,
@@ -504,7 +521,10 @@ impl VisibilityMap<'_> {
         let place = |face: u32| shown.places[face as usize];
         let pairs = |wanted: Wanted<'_>| pairs(primitives, leaves, &place, wanted, watch);
         let Ordered { order, is_clipped } = order_by_rank(&shown.ranks, pairs, watch)?;
-        let cells = shown.cells(primitives, leaves, &is_clipped);
+        let cells = match is_clipped.contains(&true) {
+            true => shown.cells(primitives, leaves, &is_clipped),
+            false => vec![],
+        };
         let left_out = self.left_out();
         let is_drawn =
             |node: &u32| left_out.binary_search(&shown.polygons[*node as usize]).is_err();
@@ -524,7 +544,7 @@ impl VisibilityMap<'_> {
                 } else {
                     for &face in &shown.faces[index] {
                         watch.work(CUT)?;
-                        add_piece(&primitives.lines, primitives.outline(face), &mut area, watch)?;
+                        add_face(primitives, face, &mut area, watch)?;
                     }
                 }
                 let polygon = shown.polygons[index];

@@ -173,6 +173,15 @@ impl<'t> Primitives<'t> {
                 .all(|&half| self.lines.across(half, sides) == Across::Inside)
     }
 
+    /// Whether a face is certainly inside the picture, and bounded by its edges in order.
+    pub(super) fn is_inside(&self, face: u32) -> bool {
+        let [low, high] = self.views[face as usize].around;
+        let [least, most] = Tile::picture(self.lines.frame.rays.size()).sides();
+        // The box of a face that reaches beyond the picture ends at the picture's border.
+        (0..2).all(|axis| least[axis] < low[axis] && high[axis] < most[axis])
+            && self.lines.frame.faces.moved_axis(face).is_none()
+    }
+
     /// The item of a fragment, unless the fragment is outside the picture.
     fn item(&self, fragment: &Fragment<'_>) -> Option<Item> {
         let face = fragment.face();

@@ -7,7 +7,7 @@ use super::graph::{Groups, Ordered, Pair, Wanted, contracted, cycles, order};
 use super::map::{Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by};
 use super::overlaid::Between;
 use super::pairs::{Found, overlaps, pairs, sorted};
-use super::paths::{Area, Drawing, add_piece};
+use super::paths::{Area, Drawing, add_face, add_piece};
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Leaf, Visible};
 use crate::Error;
@@ -81,7 +81,14 @@ impl Drawing {
         }
         reporter.watch(if overlay.is_some() { 4 } else { 3 }, |watch| {
             let primitives = Primitives::new(tree, rays, opacities, watch)?;
-            let overlaps = overlaps(&primitives, watch)?;
+            // Without cut polygons and lines, the tree's order is a painting order, whatever overlaps.
+            let is_sorted = overlay.is_none() && !Counts::of(&primitives).has_pieces();
+            let overlaps = if is_sorted {
+                finish_item(watch, 0, 1);
+                vec![]
+            } else {
+                overlaps(&primitives, watch)?
+            };
             let between = overlay.map(|overlay| Between::of(&primitives, overlay, watch));
             let between = between.transpose()?;
             let (mut touching, mut known) = (Vec::new(), Found::default());
@@ -322,6 +329,11 @@ impl Counts {
         Self { of_face, of_polygon }
     }
 
+    /// Whether a polygon has several items.
+    fn has_pieces(&self) -> bool {
+        self.of_polygon.iter().any(|&count| count > 1)
+    }
+
     /// Adds items to an area, face by face.
     fn add_pieces(
         &self,
@@ -334,7 +346,7 @@ impl Counts {
             let face = primitives.face(same[0]);
             // If no piece of a face is missing, use the face's own outline.
             if same.len() as u32 == self.of_face[face as usize] {
-                add_piece(&primitives.lines, primitives.outline(face), area, watch)?;
+                add_face(primitives, face, area, watch)?;
                 continue;
             }
             for item in each(watch, CUT, same) {
