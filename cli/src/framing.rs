@@ -32,20 +32,35 @@ pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64, margin: f64) -> Resul
     Camera::perspective(eye, eye - back * furthest, up, fov, like.size())
 }
 
-/// Finds, by bisection between two limits along an axis, the eye at which the margins on both sides of the
-/// picture are equal.
+/// Finds, between two limits along an axis, the eye at which the margins on both sides of the picture are equal.
+///
+/// The next place is where the two outermost corners would be equally far from the middle of the picture. If
+/// they still are the outermost corners there, it is the right place; a place beyond the limits is replaced by
+/// bisection.
 fn middle(scene: &Scene, axis: DVec3, back: DVec3, distance: f64, mut limits: [f64; 2]) -> f64 {
+    let tiny = 1e-9 * (limits[1] - limits[0]);
     let mut place = 0.5 * limits[0] + 0.5 * limits[1];
     // Twenty halvings are a thousandth of a pixel.
     for _ in 0..20 {
-        let slopes = scene
-            .polygons()
-            .flatten()
-            .map(|&corner| (corner.dot(axis) - place) / (distance - corner.dot(back)));
-        let (low, high) =
-            slopes.fold((0.0f64, 0.0f64), |(low, high), slope| (low.min(slope), high.max(slope)));
-        limits[usize::from(high + low < 0.0)] = place;
-        place = 0.5 * limits[0] + 0.5 * limits[1];
+        // For each side, the slope towards the outermost corner, and where that is along the axis and ahead.
+        let [mut low, mut high] = [[0.0f64; 3]; 2];
+        for corner in scene.polygons().flatten() {
+            let (along, ahead) = (corner.dot(axis), distance - corner.dot(back));
+            let slope = (along - place) / ahead;
+            if slope < low[0] {
+                low = [slope, along, ahead];
+            }
+            if slope > high[0] {
+                high = [slope, along, ahead];
+            }
+        }
+        limits[usize::from(high[0] + low[0] < 0.0)] = place;
+        let equal = (low[1] * high[2] + high[1] * low[2]) / (low[2] + high[2]);
+        if (equal - place).abs() <= tiny {
+            break;
+        }
+        let is_within = limits[0] < equal && equal < limits[1];
+        place = if is_within { equal } else { 0.5 * limits[0] + 0.5 * limits[1] };
     }
     place
 }
