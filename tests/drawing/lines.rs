@@ -27,6 +27,10 @@ fn a_cube_shows_nine_edges_and_six_are_its_silhouette() {
         let silhouette: Vec<_> =
             visible.iter().filter(|run| run.kind == EdgeKind::Silhouette).collect();
         assert_eq!(silhouette.len(), 6);
+        // Of the two polygons at a silhouette, the run names the one that is seen from its front.
+        let map = map_of(&tree, &camera);
+        let shown: Vec<usize> = map.polygons().map(|polygon| polygon.polygon).collect();
+        assert!(silhouette.iter().all(|run| shown.contains(&run.polygon)));
         // The silhouette is closed: each end belongs to two runs.
         for end in silhouette.iter().flat_map(|run| run.ends) {
             let is_there = |other: &[f64; 2]| (0..2).all(|i| (end[i] - other[i]).abs() < 1e-9);
