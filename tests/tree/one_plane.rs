@@ -231,7 +231,7 @@ fn layers_above_and_below_a_larger_one_keep_their_order_with_it() {
         layer([0.0; 2], [1.0; 2], 0.0),
         layer([0.0; 2], [2.0; 2], 0.95 * WIDE),
         // It is not parallel, so its own plane holds none of the others.
-        layer([0.0; 2], [0.9; 2], 0.0).map(|p| p.with_z((1.45 + 0.5 * p.x) * WIDE)),
+        layer([0.0; 2], [0.9; 2], 0.0).map(|p| p.with_z((1.6 + 0.33 * p.x) * WIDE)),
     ];
     let mut whole = 0;
     for (turn, kind) in (0..12).flat_map(|turn| (0..5).map(move |kind| (turn, kind))) {
