@@ -278,8 +278,8 @@ fn runs_of_two_polygons_do_not_meet() {
     enough!(compared > 20; "{compared}");
 }
 
-/// A small polygon lies on a floor within the tolerance. Its plane leaves the floor on both sides far away, so the floor
-/// has corners on both sides of it. It is divided into triangles, but it does not cross the floor there.
+/// A small polygon lies on a floor within the tolerance. Far away its plane leaves the floor on both sides, so the
+/// floor has corners on both sides of it. It is divided into triangles, but it does not cross the floor there.
 #[test]
 fn a_divided_polygon_on_a_floor_does_not_cross_it() {
     let tolerance = 1e-3;

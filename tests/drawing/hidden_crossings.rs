@@ -175,8 +175,8 @@ fn a_floor_in_the_middle_of_walls_crosses_all_of_them() {
     assert!(walls.into_iter().eq(1..=40));
 }
 
-/// A floor of two cards, the second lower by half the tolerance. A wall reaches down through the first card's plane, and
-/// below the second card by less than the tolerance. A bar hides the middle of the second crossing.
+/// A floor of two cards, the second lower by half the tolerance. A wall reaches down through the first card's plane,
+/// and below the second card by less than the tolerance. A bar hides the middle of the second crossing.
 #[test]
 fn a_crossing_that_shows_on_both_sides_of_a_bar_is_hidden_behind_it() {
     let tolerance = 1e-3;

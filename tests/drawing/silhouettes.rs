@@ -99,8 +99,8 @@ fn silhouettes_of_quads_that_are_not_planar_are_closed() {
 /// crease where the upper sides of both are seen, and a silhouette where one is seen from below.
 #[test]
 fn a_polygon_with_its_front_on_the_other_side_counts_as_reversed() {
-    // Lifted by less than the tolerance, a quad is not planar, and one of its corners is moved. The polygons still share
-    // the edge.
+    // Lifted by less than the tolerance, a quad is not planar, and one of its corners is moved. The polygons still
+    // share the edge.
     for (turns, lift) in (0..16).flat_map(|turns| [(turns, 0.0), (turns, 4e-4)]) {
         let mut flat = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, lift]];
         let mut ramp = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.5], [2.0, 0.0, 0.5 + lift]];
