@@ -66,9 +66,9 @@ impl VisibilityMap<'_> {
     /// plane.
     ///
     /// With [`Hidden::Keep`] and [`Hidden::Count`], hidden runs are returned too, but only for some pairs of
-    /// polygons. Each polygon of such a pair has corners on both sides of the other polygon's plane, further
-    /// from that plane than the tolerance. If a polygon is triangulated, each of its triangles has separate
-    /// runs.
+    /// polygons: those with visible runs, and those of which each polygon has corners on both sides of the other
+    /// polygon's plane, further from that plane than the tolerance. If a polygon is triangulated, each of its
+    /// triangles has separate runs.
     ///
     /// Takes O(n log n) for n cells of opaque polygons. With translucent polygons, n also includes the parts
     /// of the picture that [`regions`](Self::regions) are made of. With hidden runs, n also includes all
@@ -615,8 +615,7 @@ impl InnerEdges {
     pub(super) fn bend_at(&self, faces: &Faces, edge: FaceEdge, other: u32) -> Option<Bend> {
         let across = self.across(edge)?;
         let ends = faces.ends(edge.0, edge.1);
-        let is_on = |face: u32| ends.iter().all(|end| side(faces, face, end).is_eq());
-        if !is_on(other) {
+        if ends.iter().any(|end| side(faces, other, end).is_ne()) {
             return None;
         }
         let found = |other_edge: Option<u32>, behind: u32| {
@@ -634,7 +633,7 @@ impl InnerEdges {
             });
         };
         // The other polygon has an edge there as well: that polygon is bent, too, or ends there.
-        let behind = self.across((other, k)).filter(|behind| is_on(behind.0))?;
+        let behind = self.across((other, k))?;
         let along = way(faces, edge);
         let is_between = |x| is_between(faces, along, [edge, across], x);
         let places = [(other, k), behind].map(is_between);

@@ -289,13 +289,13 @@ impl SharedEdge {
         a.cross(b).length().atan2(a.dot(b))
     }
 
-    /// The kind of the edge, given the sides that the edge's faces show.
+    /// The kind of the edge, given the sides that the edge's faces show. At least one face is not edge-on.
     fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
         let &[(one, _), (other, _)] = &self.faces[..] else { return EdgeKind::Border };
         // If two polygons have their fronts on the same side, they traverse the edge in opposite directions.
         let is_folded = !self.is_turned(faces, 0, 1);
         let second = if is_folded { sides[1].reverse() } else { sides[1] };
-        if sides[0] != second || sides[0].is_eq() {
+        if sides[0] != second {
             return EdgeKind::Silhouette;
         }
         EdgeKind::Crease(self.angle(faces, [one, other]))

@@ -737,8 +737,8 @@ pub(super) fn in_layers(
         let layers = layers.max(1);
         let goes_on = parts.last().is_some_and(|last| last.1 == layers);
         if to - from >= SHORTEST && !goes_on {
-            let start = if parts.is_empty() { low } else { from };
-            parts.push((start, layers));
+            // (The first part begins where the run does.)
+            parts.push((from, layers));
         }
     }
     if parts.is_empty() {
@@ -757,4 +757,51 @@ pub(super) fn in_layers(
         all.iter_mut().for_each(|(ends, _)| ends.swap(0, 1));
     }
     Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COURSE: ImageLine =
+        ImageLine { foot: [0.0; 2], direction: [1.0, 0.0], places: [0.0, 10.0] };
+
+    /// The ends of parts, and whether each is inside.
+    fn parts_of(intervals: &[[f64; 2]]) -> Vec<([f64; 2], bool)> {
+        let parts = parts(&COURSE, intervals.iter().copied()).into_iter();
+        parts.map(|([[a, _], [b, _]], is_inside)| ([a, b], is_inside)).collect()
+    }
+
+    #[test]
+    fn intervals_and_gaps_of_rounding_make_no_parts() {
+        let [low, high] = [3.0, 3.0 + 1e-9];
+        assert_eq!(parts_of(&[[low, high]]), [([0.0, 10.0], false)]);
+        let whole = [([0.0, 2.0], false), ([2.0, 4.0], true), ([4.0, 10.0], false)];
+        assert_eq!(parts_of(&[[2.0, low], [high, 4.0]]), whole);
+        assert_eq!(parts_of(&[[2.0, 4.0], [low, high]]), whole);
+        assert_eq!(parts_of(&[[-1.0, 1e-9], [10.0 - 1e-9, 11.0]]), [([0.0, 10.0], false)]);
+    }
+
+    /// The starts and layers of the parts of a run from place 0 to 10.
+    fn layers_of(depths: &[(f64, u32)]) -> Vec<([f64; 2], u32)> {
+        let rounded = Rounded { k: [0.0, 0.0, -1.0], error: 0.0, slope: 1.0 };
+        let source = Source::Points([[0.0; 3]; 2]);
+        let mut segment = ProjectedSegment::along(rounded, source).expect("a line");
+        segment.course = COURSE;
+        let depths: Vec<Depth> =
+            depths.iter().map(|&(from, layers)| Depth { from, layers }).collect();
+        let ends = [[0.0; 2], [10.0, 0.0]];
+        let known = Some((&segment, &depths[..]));
+        let parts = in_layers(ends, false, known, &Watch::default()).expect("not cancelled");
+        parts.into_iter().map(|([[a, _], [b, _]], layers)| ([a, b], layers)).collect()
+    }
+
+    #[test]
+    fn layers_over_a_stretch_of_rounding_belong_to_the_part_before() {
+        let parts = layers_of(&[(-5.0, 1), (4.0, 3), (4.0 + 1e-9, 2), (12.0, 0)]);
+        assert_eq!(parts, [([0.0, 4.0 + 1e-9], 1), ([4.0 + 1e-9, 10.0], 2)]);
+        // At the start, there is no part before.
+        assert_eq!(layers_of(&[(-5.0, 1), (1e-9, 2), (12.0, 0)]), [([0.0, 10.0], 2)]);
+        assert_eq!(layers_of(&[(-5.0, 0), (12.0, 0)]), [([0.0, 10.0], 1)]);
+    }
 }

@@ -82,3 +82,49 @@ fn open_along(edges: &[(usize, Edge)]) -> Vec<[u32; 2]> {
     };
     edges.iter().filter(is_open).map(|(_, edge)| edge.2).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::open_edges;
+    use crate::random::SplitMix64;
+
+    /// Edges of whole steps on a few lines, counted step by step.
+    #[test]
+    fn an_edge_is_open_if_a_step_of_it_has_a_surplus_in_its_direction() {
+        let lines = [[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [1, 2, -1]], [[1, 0, 3], [-2, 2, 4]]];
+        let mut random = SplitMix64::new(1);
+        let mut below = |limit: u64| (random.next() >> 8) as i64 % limit as i64;
+        let mut counts = [0; 2];
+        for _ in 0..20_000 {
+            let count = 1 + below(8);
+            let edges: Vec<(usize, i64, i64)> =
+                (0..count).map(|_| (below(3) as usize, below(5), below(5))).collect();
+            let mut surplus: HashMap<(usize, i64), i64> = HashMap::new();
+            for &(line, from, to) in &edges {
+                for step in from.min(to)..from.max(to) {
+                    *surplus.entry((line, step)).or_default() += (to - from).signum();
+                }
+            }
+            let is_open = |&(line, from, to): &(usize, i64, i64)| {
+                let mut steps = from.min(to)..from.max(to);
+                steps.any(|step| surplus[&(line, step)] * (to - from) > 0)
+            };
+            let expected: Vec<[u32; 2]> = (0..)
+                .zip(&edges)
+                .filter(|(_, edge)| is_open(edge))
+                .map(|(name, _)| [name, 7])
+                .collect();
+            let at = |line: usize, place: i64| {
+                let [origin, way] = lines[line];
+                [0, 1, 2].map(|i: usize| origin[i] + place * way[i])
+            };
+            let given = (0..).zip(&edges);
+            let given = given.map(|(name, &(line, a, b))| (at(line, a), at(line, b), [name, 7]));
+            assert_eq!(open_edges(given.collect()), expected, "{edges:?}");
+            counts[usize::from(expected.is_empty())] += 1;
+        }
+        assert!(counts.iter().all(|&count| count > 500), "{counts:?}");
+    }
+}

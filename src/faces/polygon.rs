@@ -367,11 +367,47 @@ fn least_rotation(corners: &[[i64; 3]]) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{Outline, canonical, least_rotation};
+    use super::{Corners, Outline, canonical, least_rotation};
+    use crate::random::SplitMix64;
 
     /// All sequences of a length over three corners.
     fn sequences(len: u32) -> impl Iterator<Item = Outline> {
         (0..3i64.pow(len)).map(move |code| (0..len).map(|k| [code / 3i64.pow(k) % 3; 3]).collect())
+    }
+
+    /// Counted corner by corner, around outlines with long straight sides that begin anywhere.
+    #[test]
+    fn straight_runs_go_on_past_the_first_corner() {
+        let mut random = SplitMix64::new(8);
+        let mut past = 0;
+        for round in 0..400 {
+            let mut whole = |most: u64| (random.next() % most) as i64;
+            let [a, b] = [[1 + whole(5), whole(5)], [-whole(5), 1 + whole(5)]];
+            let (mut at, mut points) = ([0; 2], vec![]);
+            for (way, count) in [(a, 1 + whole(6)), (b, 1 + whole(6)), ([-3, -4], 1)] {
+                for _ in 0..count {
+                    points.push(at);
+                    at = [at[0] + way[0], at[1] + way[1]];
+                }
+            }
+            let n = points.len();
+            points.rotate_left(round % n);
+            let kept = (0..).zip(&points).map(|(k, p)| ([p[0] as f64, p[1] as f64, 0.0], k));
+            let mut corners = Corners { kept: kept.collect(), given: n, runs: vec![] };
+            corners.find_runs();
+            for k in 0..n {
+                let point = |i: usize| points[(k + i) % n];
+                let step = |i: usize| [0, 1].map(|axis| point(i + 1)[axis] - point(i)[axis]);
+                let is_straight = |i: &usize| {
+                    let ([ax, ay], [bx, by]) = (step(i - 1), step(*i));
+                    ax * by == ay * bx
+                };
+                let run = 1 + (1..n).take_while(is_straight).count();
+                assert_eq!(corners.runs[k], run as u32, "{points:?} {k}");
+                past += usize::from(k + run > n + 1);
+            }
+        }
+        assert!(past > 200, "{past}");
     }
 
     #[test]

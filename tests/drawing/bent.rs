@@ -16,8 +16,14 @@ use testkit::rational::Point;
 fn a_wall_through_the_bend_of_a_quad_crosses_it() {
     let roof = [[-3.0, 0.0, -1.0], [0.0, -2.0, 0.0], [3.0, 0.0, -1.0], [0.0, 2.0, 0.0]];
     let wall = |low: f64| [[0.0, -1.0, low], [0.0, 1.0, low], [0.0, 1.0, 2.0], [0.0, -1.0, 2.0]];
-    for (low, expected) in [(-2.0, 2.0), (0.0, 0.0)] {
-        let tree = BspTree::build([roof, wall(low)]).unwrap();
+    // A wall that reaches below the bend by less than the tolerance stands on it.
+    for (low, expected, order) in [(-2.0, 2.0), (0.0, 0.0), (-5e-4, 0.0)]
+        .into_iter()
+        .flat_map(|(low, expected)| [[0, 1], [1, 0]].map(|order| (low, expected, order)))
+    {
+        let polygons = [roof, wall(low)];
+        let options = BuildOptions::DEFAULT.with_tolerance(1e-3);
+        let tree: BspTree = options.build(order.map(|i: usize| polygons[i])).unwrap();
         assert_eq!(tree.faces().len(), 3, "the roof is bent");
         let direction = DVec3::new(-1.0, 0.0, -1.0);
         let camera = Camera::parallel(direction, DVec3::Z, DVec3::ZERO, 8.0, [80, 80]).unwrap();
@@ -99,6 +105,10 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
             _ => vec![at(0.125), c, at(1.0), d],
         };
         polygons.push(other);
+        if i % 8 > 3 {
+            let last = polygons.len() - 1;
+            polygons.swap(last - 1, last);
+        }
     }
     polygons
 }

@@ -3,6 +3,8 @@
 use super::{map_of, map_with};
 use binspace::drawing::{EdgeKind, EdgeRun};
 use testkit::prelude::*;
+use testkit::scenes::triangles;
+use testkit::shapes::rectangle;
 
 /// A tree by each heuristic, and one of a frame.
 fn trees<P: Polygon>(polygons: &[P]) -> Vec<(String, BspTree)> {
@@ -210,4 +212,93 @@ fn a_polygon_does_not_cross_itself() {
         }
     }
     enough!(cut > 50; "{cut}");
+}
+
+/// A floor of tiles and a wall of panels are divided at the same places. Each panel crosses one tile in one run, and
+/// meets the tiles beside it only in a point.
+#[test]
+fn panels_cross_only_the_tiles_at_their_places() {
+    let mut dice = Dice(9);
+    let count = 24;
+    for _ in 0..times(12) {
+        let mut ends: Vec<f64> = (0..=count).map(|_| dice.around_zero(4000) / 1024.0).collect();
+        ends.sort_unstable_by(f64::total_cmp);
+        ends.dedup();
+        let count = ends.len() - 1;
+        let tile = |ends: &[f64]| {
+            let at = |x: f64, y: f64| dvec3(x, y, 0.0);
+            [at(ends[0], -1.0), at(ends[1], -1.0), at(ends[1], 1.0), at(ends[0], 1.0)]
+        };
+        let panel = |ends: &[f64]| tile(ends).map(|p| dvec3(p.x, 0.0, p.y));
+        let polygons: Vec<[DVec3; 4]> =
+            ends.windows(2).map(tile).chain(ends.windows(2).map(panel)).collect();
+        let tree = BspTree::build(&polygons).unwrap();
+        let eye = dice.point(-1.0, 1.0).normalize() * 9.0;
+        let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 1.2, [320, 240]);
+        let parallel = Camera::parallel(-eye, DVec3::Z, DVec3::ZERO, 12.0, [320, 240]);
+        for camera in [perspective.unwrap(), parallel.unwrap()] {
+            for (opacity, hidden) in
+                [0.5, 1.0].into_iter().flat_map(|o| [(o, Hidden::Skip), (o, Hidden::Keep)])
+            {
+                let runs = map_with(&tree, &camera, |_| opacity).crossings(hidden).unwrap();
+                assert!(runs.iter().all(|run| run.is_visible));
+                let pairs: Vec<_> = runs.iter().map(|run| (run.polygon, run.kind)).collect();
+                let expected = (0..count).map(|k| (k, EdgeKind::Crossing(count + k)));
+                assert_eq!(pairs, expected.collect::<Vec<_>>(), "{camera:?}, {hidden:?}");
+            }
+        }
+    }
+}
+
+/// The visible parts of a crossing that meet are one run, from however many cells they come.
+#[test]
+fn runs_of_two_polygons_do_not_meet() {
+    let mut dice = Dice(10);
+    let mut compared = 0;
+    for round in 0..times(12) {
+        let polygons = triangles(&mut dice, 60, [-1.0, 1.0], 0.8);
+        let tree = BspTree::build(&polygons).unwrap();
+        let eye = dice.point(-1.0, 1.0).normalize() * 4.0;
+        let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
+        let opacity = if round % 2 == 0 { 1.0 } else { 0.5 };
+        let runs = map_with(&tree, &camera, |_| opacity).crossings(Hidden::Skip).unwrap();
+        for (k, one) in runs.iter().enumerate() {
+            let same = |run: &&EdgeRun| (run.polygon, run.kind) == (one.polygon, one.kind);
+            for other in runs[k + 1..].iter().filter(same) {
+                let ends = one.ends.into_iter().flat_map(|p| other.ends.map(|q| [p, q]));
+                let gap = ends.map(|[p, q]| DVec2::from(p).distance(q.into()));
+                let gap = gap.fold(f64::INFINITY, f64::min);
+                assert!(gap >= 1e-6, "{gap}: {one:?} {other:?}");
+                compared += 1;
+            }
+            let length = DVec2::from(one.ends[0]).distance(one.ends[1].into());
+            assert!(length > 9e-7, "{one:?}");
+        }
+    }
+    enough!(compared > 20; "{compared}");
+}
+
+/// A small polygon lies on a floor within the tolerance. Far away its plane leaves the floor on both sides, so the
+/// floor has corners on both sides of it. It is divided into triangles, but it does not cross the floor there.
+#[test]
+fn a_divided_polygon_on_a_floor_does_not_cross_it() {
+    let tolerance = 1e-3;
+    let floor: Corners = rectangle([-2.0, -2.0], [2.0, 2.0], 0.0);
+    let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    for turns in 0..6 {
+        let mut l: Corners =
+            l.map(|[x, y]| dvec3(0.1 * x, 0.1 * y, 0.8 * tolerance * (x - 1.0))).to_vec();
+        l.rotate_left(turns);
+        let camera =
+            Camera::parallel(dvec3(0.2, 0.1, -1.0), DVec3::Y, DVec3::ZERO, 5.0, [80, 80]).unwrap();
+        for polygons in [[l.clone(), floor.clone()], [floor.clone(), l.clone()]] {
+            let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
+            let tree: BspTree = options.build(&polygons).unwrap();
+            assert!(tree.faces().len() > 2);
+            for hidden in [Hidden::Skip, Hidden::Keep, Hidden::Count] {
+                let runs = map_with(&tree, &camera, |_| 0.5).crossings(hidden).unwrap();
+                assert_eq!(runs, [], "{turns}, {hidden:?}");
+            }
+        }
+    }
 }

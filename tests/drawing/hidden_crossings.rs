@@ -174,3 +174,39 @@ fn a_floor_in_the_middle_of_walls_crosses_all_of_them() {
     walls.dedup();
     assert!(walls.into_iter().eq(1..=40));
 }
+
+/// A floor of two cards, the second lower by half the tolerance. A wall reaches down through the first card's plane,
+/// and below the second card by less than the tolerance. A bar hides the middle of the second crossing.
+#[test]
+fn a_crossing_that_shows_on_both_sides_of_a_bar_is_hidden_behind_it() {
+    let tolerance = 1e-3;
+    let floor = |from: f64, to: f64, z: f64| rectangle([from, -2.0], [to, 2.0], z);
+    let wall = |z: f64| {
+        let at = |x: f64, z: f64| dvec3(x, 0.0, z);
+        vec![at(-2.9, z), at(1.9, z), at(1.9, 1.0), at(-2.9, 1.0)]
+    };
+    // The line of sight falls as far as it leads forward.
+    let bar = rectangle([0.5, -4.0], [1.0, -1.5], 2.0);
+    let camera = Camera::parallel(dvec3(0.0, 1.0, -1.0), DVec3::Z, DVec3::ZERO, 8.0, [80, 80]);
+    let camera = camera.unwrap();
+    for reach in [1.2, 3.0] {
+        let polygons = [
+            floor(-3.0, 0.0, 0.0),
+            floor(0.0, 2.0, -0.5 * tolerance),
+            wall(-reach * tolerance),
+            bar.clone(),
+        ];
+        // The plane of the first card divides the wall.
+        let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
+        let tree = options.with_tolerance(tolerance).build(&polygons).unwrap();
+        let runs = map_of(&tree, &camera).crossings(Hidden::Keep).unwrap();
+        let own = |run: &&EdgeRun| (run.polygon, run.kind) == (1, EdgeKind::Crossing(2));
+        let of = |is_visible: bool| {
+            let own = runs.iter().filter(own).filter(|run| run.is_visible == is_visible);
+            own.map(length).sum::<f64>()
+        };
+        let [visible, hidden] = [true, false].map(of);
+        assert!((visible - 14.0).abs() < 1e-2, "{reach}: {visible}, {runs:?}");
+        assert!((hidden - 5.0).abs() < 1e-2, "{reach}: {hidden}, {runs:?}");
+    }
+}

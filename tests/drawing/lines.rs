@@ -15,7 +15,8 @@ fn edges(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
 
 #[test]
 fn a_cube_shows_nine_edges_and_six_are_its_silhouette() {
-    let tree = BspTree::build(cuboid(-DVec3::ONE, DVec3::ONE)).unwrap();
+    let cube = cuboid(-DVec3::ONE, DVec3::ONE);
+    let tree = BspTree::build(cube).unwrap();
     let eye = DVec3::new(4.0, 3.0, 5.0);
     let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [300, 200]).unwrap();
     let parallel = Camera::parallel(-eye, DVec3::Z, DVec3::ZERO, 5.0, [300, 200]).unwrap();
@@ -27,6 +28,18 @@ fn a_cube_shows_nine_edges_and_six_are_its_silhouette() {
         let silhouette: Vec<_> =
             visible.iter().filter(|run| run.kind == EdgeKind::Silhouette).collect();
         assert_eq!(silhouette.len(), 6);
+        // Of the two polygons at a silhouette, the run names the one that is seen from its front.
+        let map = map_of(&tree, &camera);
+        let shown: Vec<usize> = map.polygons().map(|polygon| polygon.polygon).collect();
+        assert!(silhouette.iter().all(|run| shown.contains(&run.polygon)));
+        // Each run leads from corner to corner as its polygon does.
+        for run in &runs {
+            let start = run.edge.expect("of the outline") as usize;
+            for (end, corner) in run.ends.into_iter().zip([start, (start + 1) % 4]) {
+                let at = DVec2::from(camera.project(cube[run.polygon][corner]).unwrap());
+                assert!(at.distance(end.into()) < 1e-9, "{run:?}");
+            }
+        }
         // The silhouette is closed: each end belongs to two runs.
         for end in silhouette.iter().flat_map(|run| run.ends) {
             let is_there = |other: &[f64; 2]| (0..2).all(|i| (end[i] - other[i]).abs() < 1e-9);

@@ -99,26 +99,34 @@ fn silhouettes_of_quads_that_are_not_planar_are_closed() {
 /// crease where the upper sides of both are seen, and a silhouette where one is seen from below.
 #[test]
 fn a_polygon_with_its_front_on_the_other_side_counts_as_reversed() {
-    let flat = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    let ramp = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.5], [2.0, 0.0, 0.5]];
-    let mut turned = ramp;
-    turned.reverse();
-    for other in [ramp, turned] {
-        let tree = BspTree::build([flat, other]).unwrap();
-        for (way, is_crease) in [([0.1, 0.2, -1.0], true), ([-1.0, 0.1, -0.2], false)] {
-            let centre = DVec3::new(1.0, 0.5, 0.0);
-            let camera = Camera::parallel(way.into(), DVec3::Y, centre, 6.0, [80, 80]).unwrap();
-            let edges = map_of(&tree, &camera).edges(Hidden::Keep).unwrap();
-            let is_common = |kind| kind != EdgeKind::Border;
-            let kinds: Vec<_> =
-                edges.iter().map(|run| run.kind).filter(|k| is_common(*k)).collect();
-            assert!(!kinds.is_empty(), "{way:?}");
-            for kind in kinds {
-                match kind {
-                    EdgeKind::Crease(angle) => {
-                        assert!(is_crease && (angle - 0.5f64.atan()).abs() < 1e-9, "{angle}")
+    // Lifted by less than the tolerance, a quad is not planar, and one of its corners is moved. The polygons still
+    // share the edge.
+    for (turns, lift) in (0..16).flat_map(|turns| [(turns, 0.0), (turns, 4e-4)]) {
+        let mut flat = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, lift]];
+        let mut ramp = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.5], [2.0, 0.0, 0.5 + lift]];
+        flat.rotate_left(turns % 4);
+        ramp.rotate_left(turns / 4);
+        let mut turned = ramp;
+        turned.reverse();
+        for other in [ramp, turned] {
+            let options = BuildOptions::DEFAULT.with_tolerance(1e-3);
+            let tree: BspTree = options.build([flat, other]).unwrap();
+            assert_eq!(tree.preparation().flattened, if lift > 0.0 { 2 } else { 0 });
+            for (way, is_crease) in [([0.1, 0.2, -1.0], true), ([-1.0, 0.1, -0.2], false)] {
+                let centre = DVec3::new(1.0, 0.5, 0.0);
+                let camera = Camera::parallel(way.into(), DVec3::Y, centre, 6.0, [80, 80]).unwrap();
+                let edges = map_of(&tree, &camera).edges(Hidden::Keep).unwrap();
+                let kinds = edges.iter().map(|run| run.kind).filter(|k| *k != EdgeKind::Border);
+                let kinds: Vec<EdgeKind> = kinds.collect();
+                assert!(!kinds.is_empty(), "{way:?}");
+                for kind in kinds {
+                    match kind {
+                        EdgeKind::Crease(angle) => {
+                            let off = (angle - 0.5f64.atan()).abs();
+                            assert!(is_crease && off < 1e-9 + 4.0 * lift, "{angle}, {turns}")
+                        }
+                        kind => assert!(!is_crease, "{kind:?}, {turns}, {lift}"),
                     }
-                    kind => assert!(!is_crease, "{kind:?}"),
                 }
             }
         }

@@ -132,6 +132,125 @@ fn faces_keep_the_outline_of_every_bent_polygon() {
     assert!(crossing < times(3000) / 10, "{crossing}");
 }
 
+/// Twice the area of a face along each axis.
+fn area_along(faces: &Faces, face: u32) -> [i128; 3] {
+    let corners = faces.corners(face).iter().map(|p| p.map(|c| c as i128));
+    let corners: Vec<[i128; 3]> = corners.collect();
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).fold([0; 3], |sum, (a, b)| vector::sum(&sum, &product(a, b)))
+}
+
+/// Seen along one axis, the outline is a star; along the others it may cross itself in any way, and may have
+/// more area. No triangle is folded over the others.
+#[test]
+fn bent_outlines_with_one_simple_projection_are_not_folded() {
+    let mut dice = Dice(47);
+    let (mut quads, mut steep) = (0, 0);
+    for round in 0..times(600) {
+        let n = 4 + round % 7;
+        let height = [30.0, 1000.0, 9000.0][round % 3];
+        let mut polygon: Corners = (0..n)
+            .map(|k| {
+                let turn = (k as f64 + 0.6 * dice.share()) / n as f64 * std::f64::consts::TAU;
+                let [radius, z] = [dice.range(80.0, 1000.0), dice.range(-height, height)];
+                let mut p = [turn.cos() * radius, turn.sin() * radius, z];
+                p.rotate_right(round / 3 % 3);
+                DVec3::from_array(p).round()
+            })
+            .collect();
+        polygon.rotate_left(dice.below(n));
+        let (faces, report) = prepare(&polygon, false, Tolerance::Length(0.0));
+        assert_eq!((faces.len(), report.crossing), (n - 2, 0), "{polygon:?}");
+        let areas: Vec<_> = (0..faces.len() as u32).map(|face| area_along(&faces, face)).collect();
+        let face_one_way = |axis: usize| {
+            let signs = areas.iter().map(|area| area[axis].signum()).collect::<Vec<_>>();
+            signs[0] != 0 && signs.iter().all(|&sign| sign == signs[0])
+        };
+        assert!((0..3).any(face_one_way), "{polygon:?}");
+        quads += usize::from(n == 4);
+        steep += usize::from((0..3).filter(|&axis| face_one_way(axis)).count() == 1);
+    }
+    enough!(quads > 50, steep > 100; "{quads} {steep}");
+}
+
+/// Whether two sides of a quad cross, seen along an axis.
+fn crosses_along(axis: usize, quad: &[DVec3]) -> bool {
+    let at = |k: usize| [(axis + 1) % 3, (axis + 2) % 3].map(|i| quad[k % 4][i] as i128);
+    let turn = |a: usize, b: usize, c: usize| {
+        let [a, b, c] = [a, b, c].map(at);
+        ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).signum()
+    };
+    (0..2).any(|k| {
+        let [a, b, c, d] = [k, k + 1, k + 2, k + 3];
+        turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0
+    })
+}
+
+/// The area by Heron's formula.
+fn area_of_sides([a, b, c]: [DVec3; 3]) -> f64 {
+    let [p, q, r] = [a.distance(b), b.distance(c), c.distance(a)];
+    let half = 0.5 * (p + q + r);
+    (half * (half - p) * (half - q) * (half - r)).max(0.0).sqrt()
+}
+
+#[test]
+fn quads_that_cross_themselves_from_all_sides_have_the_least_surface() {
+    let (mut dice, mut count) = (Dice(48), [0; 2]);
+    for _ in 0..times(3000) {
+        let quad: Corners = (0..4).map(|_| dice.whole_point(40)).collect();
+        if !(0..3).all(|axis| crosses_along(axis, &quad)) {
+            continue;
+        }
+        let [a, b, c, d] = [quad[0], quad[1], quad[2], quad[3]];
+        let ways = [[[a, b, c], [a, c, d]], [[b, c, d], [b, d, a]]];
+        let [one, other]: [f64; 2] = ways.map(|way| way.map(area_of_sides).iter().sum());
+        let (faces, _) = prepare(&quad, false, Tolerance::Length(0.0));
+        let corners = |face: u32| [0, 1, 2].map(|k| quad[faces.corner_number(face, k) as usize]);
+        let found: f64 = (0..faces.len() as u32).map(|face| area_of_sides(corners(face))).sum();
+        assert!((found - one.min(other)).abs() < 1e-6 * found, "{quad:?}: {found}, {one} {other}");
+        count[usize::from(other < one)] += 1;
+    }
+    enough!(count.iter().all(|&count| count > 20); "{count:?}");
+}
+
+/// The halves of the outline face both ways and have equal areas, so only the corners tell which way the whole
+/// faces: its mirror image faces the other way.
+#[test]
+fn an_outline_whose_areas_cancel_is_mirrored_with_its_faces() {
+    let bow = [[0, 0, 0], [2, 2, 0], [2, 0, 0], [0, 2, 0]];
+    let up = |bow: Corners| {
+        let (faces, report) = prepare(&bow, false, Tolerance::Default);
+        assert_eq!((report.triangulated, report.crossing), (1, 1));
+        let up = (0..faces.len() as u32).map(|face| area_along(&faces, face)[2].signum());
+        up.collect::<Vec<_>>()
+    };
+    let [one, other] = [bow, bow.map(|[x, y, z]| [x, -y, z])].map(|bow| up(of(bow)));
+    assert!(!one.is_empty() && one.iter().all(|&sign| sign == one[0]), "{one:?}");
+    assert!(!other.is_empty() && other.iter().all(|&sign| sign == -one[0]), "{one:?} {other:?}");
+}
+
+/// Outlines that are planar but for the tolerance: some corners coincide only if seen from above.
+#[test]
+fn planar_outlines_keep_corners_that_coincide_only_in_the_projection() {
+    let (mut dice, mut kept) = (Dice(49), 0);
+    for _ in 0..times(4000) {
+        let n = 5 + dice.below(5);
+        let corner = |dice: &mut Dice| {
+            let p = dice.whole_point(2);
+            dvec3(1000.0 * p.x, 1000.0 * p.y, dice.around_zero(1))
+        };
+        let polygon: Corners = (0..n).map(|_| corner(&mut dice)).collect();
+        let (faces, report) = prepare(&polygon, false, Tolerance::Length(5.0));
+        if report.triangulated == 0 || report.crossing > 0 {
+            continue;
+        }
+        assert_outline_kept(&faces, &polygon);
+        let pairs = polygon.iter().flat_map(|p| polygon.iter().map(move |q| *p - *q));
+        kept += usize::from(pairs.into_iter().any(|d| d.x == 0.0 && d.y == 0.0 && d.z != 0.0));
+    }
+    enough!(kept > 100; "{kept}");
+}
+
 /// A loop in a large bent outline changes only its neighbourhood: few triangles face down.
 #[test]
 fn a_loop_in_a_bent_outline_is_cut_off() {

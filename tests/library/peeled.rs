@@ -4,6 +4,7 @@
 use binspace::ErrorKind;
 use binspace::glam::{DQuat, EulerRot};
 use testkit::prelude::*;
+use testkit::scenes::triangles;
 
 /// A rotated cube, each side a grid of squares that face one way, in random order.
 fn cube(side: usize, inwards: bool) -> Vec<[DVec3; 4]> {
@@ -53,4 +54,23 @@ fn convex_bodies_are_taken_apart_in_input_order_within_their_depth() {
         }
     }
     enough!(shared > 50, single > 10; "{shared} {single}");
+}
+
+/// A body is peeled first, and what is inside it is divided at a greater depth. With a second body beside it, the
+/// peeling itself begins below another node.
+#[test]
+fn what_is_inside_a_convex_body_counts_from_the_depth_of_its_layers() {
+    let mut dice = Dice(5);
+    let mut polygons: Vec<Corners> = cube(8, false).iter().map(|square| square.to_vec()).collect();
+    polygons.extend(triangles(&mut dice, 40, [-0.2, 0.2], 0.1));
+    let apart = |polygon: &Corners| polygon.iter().map(|&p| p + 9.0 * DVec3::X).collect();
+    let beside: Vec<Corners> = polygons.iter().map(apart).collect();
+    for polygons in [polygons.clone(), [polygons, beside].concat()] {
+        let options = BuildOptions::DEFAULT;
+        let tree: BspTree = options.build(&polygons).expect("within budget");
+        let depth = tree.stats().depth_max;
+        assert!(depth > 10, "{depth}");
+        assert!(options.clone().with_max_depth(depth).build(&polygons).is_ok());
+        assert!(options.with_max_depth(depth - 1).build(&polygons).is_err(), "{depth}");
+    }
 }

@@ -247,6 +247,18 @@ fn polygons_that_cross_themselves_become_triangles_and_are_counted() {
     }
 }
 
+/// Coordinates in `f32` are off the polygon's plane by their rounding, which is not a bend.
+#[test]
+fn polygons_of_rounded_coordinates_that_cross_themselves_are_counted_without_a_tolerance() {
+    for angle in [0.3, 0.5, 0.7] {
+        let turn = DMat3::from_rotation_x(angle) * DMat3::from_rotation_y(2.0 * angle);
+        let star: Vec<[f32; 3]> =
+            pentagram().iter().map(|&p| (turn * p).as_vec3().to_array()).collect();
+        let (_, report) = Faces::new([star], Some(0.0)).expect("finite");
+        assert_eq!((report.triangulated, report.crossing), (1, 1));
+    }
+}
+
 #[test]
 fn corner_numbers_hold_if_the_very_first_corner_breaks_the_count() {
     // The quad is cut along its shorter diagonal, from corner 1 to 3.

@@ -4,6 +4,7 @@
 use binspace::glam::{DQuat, EulerRot};
 use binspace::internals::PlaneKind;
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use testkit::prelude::*;
 use testkit::rational::{exact, scalar};
 use testkit::scenes::trees;
@@ -180,4 +181,174 @@ fn cards_of_one_plane_stay_whole_by_every_heuristic() {
         }
     }
     assert!(whole > 180, "{whole}");
+}
+
+/// A rectangle with its middle, half its size and its height.
+fn layer(middle: [f64; 2], half: [f64; 2], z: f64) -> Card {
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+        .map(|[x, y]| dvec3(middle[0] + x * half[0], middle[1] + y * half[1], z))
+}
+
+/// The given polygons in the order of a tree, seen from a side.
+fn seen(tree: &BspTree, direction: DVec3, polygons: &[usize]) -> Vec<usize> {
+    let order = tree.back_to_front(Viewpoint::direction(direction.to_array()));
+    order.map(|fragment| fragment.polygon()).filter(|i| polygons.contains(i)).collect()
+}
+
+const WIDE: f64 = 1e-3;
+
+/// Other polygons above three layers: none, few or many more layers, walls that reach down to just below the
+/// lowest layer, so that only the planes of the two others cut them, or a ring that is taken apart side by side.
+fn others(kind: usize) -> Vec<Card> {
+    let upright = |[a, b]: [DVec2; 2], low: f64, high: f64| {
+        [a.extend(low), b.extend(low), b.extend(high), a.extend(high)]
+    };
+    let pile = |count| (1..=count).map(|k| layer([0.3; 2], [1.0; 2], f64::from(k))).collect();
+    match kind {
+        0 => vec![],
+        1 => pile(2),
+        2 => pile(290),
+        3 => (0..8)
+            .map(|k| {
+                let ends = [1.5, 4.0].map(|x| DVec2::new(x, -0.8 + 0.2 * f64::from(k)));
+                upright(ends, -0.2 * WIDE, 1.0)
+            })
+            .collect(),
+        _ => (0..300)
+            .map(|k| {
+                let at = |k: u32| DVec2::from_angle(f64::from(k % 300) / 300.0 * TAU) * 5.0;
+                upright([at(k), at(k + 1)], 1.0, 2.0)
+            })
+            .collect(),
+    }
+}
+
+/// The largest of three layers is within the tolerance of the others, which are almost twice the tolerance apart.
+/// Its plane holds all three.
+#[test]
+fn layers_above_and_below_a_larger_one_keep_their_order_with_it() {
+    let layers = [
+        layer([0.0; 2], [1.0; 2], 0.0),
+        layer([0.0; 2], [2.0; 2], 0.95 * WIDE),
+        // It is not parallel, so its own plane holds none of the others.
+        layer([0.0; 2], [0.9; 2], 0.0).map(|p| p.with_z((1.6 + 0.33 * p.x) * WIDE)),
+    ];
+    let mut whole = 0;
+    for (turn, kind) in (0..12).flat_map(|turn| (0..5).map(move |kind| (turn, kind))) {
+        let mut three = layers;
+        three.rotate_left(turn % 3);
+        if turn % 6 > 2 {
+            three.swap(0, 1);
+        }
+        let side = if turn < 6 { 1.0 } else { -1.0 };
+        let largest = (0..3).find(|&i| three[i][1].x > 1.5).expect("one of the three");
+        let all = three.into_iter().chain(others(kind));
+        let all: Vec<Card> = all.map(|card| card.map(|p| p.with_z(side * p.z))).collect();
+        for tilt in [DQuat::IDENTITY, DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7)] {
+            let tilted: Vec<Card> = all.iter().map(|card| card.map(|p| tilt * p)).collect();
+            for (name, tree) in trees(&tilted, BuildOptions::DEFAULT.with_tolerance(WIDE)) {
+                for (other, z) in (0..3).flat_map(|other| [(other, 1.0), (other, -1.0)]) {
+                    if other == largest {
+                        continue;
+                    }
+                    let pair = [other.min(largest), other.max(largest)];
+                    let found = seen(&tree, tilt * (z * DVec3::Z), &pair);
+                    // A plane across both separates their parts.
+                    if found.len() == 2 {
+                        assert_eq!(found, pair, "{name}: {turn}, {side}, {tilt}, {}", all.len());
+                        whole += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(whole > 1500, "{whole}");
+}
+
+/// Many cards lie on a small card's plane, and so does a strip that begins far from all of them. More cards lie on the
+/// strip alone, all together at one end. The plane of the strip cuts a wall, but that of a card does not.
+#[test]
+fn cards_on_a_long_strip_keep_their_order_among_many_others() {
+    let low = -0.2 * WIDE;
+    let wall = [[8.5, low], [9.5, low], [9.5, 1.0], [8.5, 1.0]];
+    let mut all: Vec<Card> = (0..46)
+        .map(|k| layer([f64::from(k), 0.0], [0.3; 2], 0.0))
+        .chain([wall.map(|[x, z]| dvec3(x, 5.0, z))])
+        .chain((0..16).map(|k| layer([50.0 + f64::from(k), 0.0], [0.3; 2], 1.9 * WIDE)))
+        .collect();
+    all.push(layer([0.0, 0.0], [70.0, 6.0], 0.95 * WIDE));
+    let on_strip: Vec<usize> = (47..64).collect();
+    let mut whole = 0;
+    for side in [1.0, -1.0] {
+        let all: Vec<Card> = all.iter().map(|card| card.map(|p| p.with_z(side * p.z))).collect();
+        for (name, tree) in trees(&all, BuildOptions::DEFAULT.with_tolerance(WIDE)) {
+            for direction in [DVec3::Z, DVec3::NEG_Z] {
+                let found = seen(&tree, direction, &on_strip);
+                // Free planes may cut the strip.
+                if found.len() == 17 {
+                    assert_eq!(found[16], 63, "{name}: {found:?}");
+                    whole += 1;
+                }
+            }
+        }
+    }
+    assert!(whole > 20, "{whole}");
+}
+
+/// The planes of small cards leave a wall by far more than the tolerance, each on another side. Only the wall's
+/// plane holds all.
+#[test]
+fn a_wall_holds_all_its_cards() {
+    let mut dice = Dice(63);
+    for last in [false, true] {
+        let mut all: Vec<Card> = (0..40)
+            .map(|k| {
+                let size = 0.02 * f64::from(k + 1);
+                let middle = [0; 2].map(|_| dice.range(-1.0, 1.0));
+                let card = layer(middle, [size; 2], 0.0);
+                // Three corners in the card's plane, so that the fourth is in it, too.
+                let [u, v] = [0; 2].map(|_| dice.range(-0.45, 0.45) * WIDE);
+                let heights = [0.0, u, u + v, v];
+                [0, 1, 2, 3].map(|i| card[i] + heights[i] * DVec3::Z)
+            })
+            .collect();
+        all.insert(if last { 40 } else { 0 }, layer([0.0; 2], [2.0; 2], 0.0));
+        for (name, tree) in trees(&all, BuildOptions::DEFAULT.with_tolerance(WIDE)) {
+            assert_eq!((tree.len(), tree.stats().nodes), (41, 1), "{name}");
+        }
+    }
+}
+
+/// The plane of each card holds all smaller cards, but not the next larger one.
+#[test]
+fn the_largest_of_many_nested_cards_holds_all() {
+    let card = |k: i32| {
+        let half = 0.02 * 1.5f64.powi(k);
+        let slope = if k % 2 == 0 { 0.45 } else { -0.45 } * WIDE / half;
+        layer([0.0; 2], [half; 2], 0.0).map(|p| p.with_z(slope * p.x))
+    };
+    let mut all: Vec<Card> = (0..12).map(card).collect();
+    for _ in 0..12 {
+        all.rotate_left(1);
+        for (name, tree) in trees(&all, BuildOptions::DEFAULT.with_tolerance(WIDE)) {
+            assert_eq!((tree.len(), tree.stats().nodes), (12, 1), "{name}");
+        }
+    }
+}
+
+/// The larger of two neighbours nearly in one plane has the more certain plane. It replaces the first plane only if
+/// the two overlap by more than the tolerance.
+#[test]
+fn a_plane_gives_way_only_to_a_card_that_overlaps() {
+    for (overlap, gives_way) in [(-2.0, false), (0.0, false), (0.5, false), (3.0, true)] {
+        let small = layer([-1.0, 0.0], [1.0; 2], 0.0);
+        let from = -overlap * WIDE;
+        // It rises to 2 tolerances, so it is not on the small card's plane.
+        let large = layer([from + 3.0, 0.0], [3.0, 2.0], 0.0)
+            .map(|p| dvec3(p.x, p.y, 2.0 * WIDE * (p.x - from) / 6.0));
+        let options = BuildOptions::DEFAULT.with_tolerance(WIDE).with_heuristic(Heuristic::First);
+        let tree: BspTree = options.build([small, large]).expect("finite");
+        let root = tree.root().expect("a node").plane();
+        assert_eq!(root, PlaneId::face(u32::from(gives_way)), "{overlap}");
+    }
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use super::sweep::{Point, area, turn};
-use super::{PATIENCE, Triangulation, in_plane};
+use super::{PATIENCE, Triangulation, diagonal, in_plane};
 use crate::progress::{PIECES_AT_ONCE, PULSE, Watch};
 use crate::random::SplitMix64;
 use shapes::{Family, large, random_points, simple};
@@ -367,4 +367,28 @@ fn bent_polygons_keep_their_edges_if_any_projection_is_simple() {
     edges.dedup();
     assert_eq!(edges, [0, 1, 2, 3, 4, 5]);
     assert_eq!(tree.preparation().crossing, 0);
+}
+
+/// Compared with all pairs of corners. A large outline is divided near its middle.
+#[test]
+fn outlines_are_divided_by_their_shortest_diagonal() {
+    let mut random = SplitMix64::new(7);
+    for n in (5..90).chain([1000, 1001, 10_000]) {
+        let corners: Vec<[f64; 3]> =
+            (0..n).map(|_| random.point(-1e6, 1e6).round().to_array()).collect();
+        let square = |[a, b]: [usize; 2]| -> i128 {
+            (0..3).map(|i| (corners[a][i] as i128 - corners[b][i] as i128).pow(2)).sum()
+        };
+        let [a, b] = diagonal(&corners);
+        let (low, high) = (a.min(b), a.max(b));
+        let steps = (high - low).min(n - (high - low));
+        if n > 90 {
+            assert!(steps + 1 + 4096 / n >= n / 2, "{n}: {steps}");
+            continue;
+        }
+        let pairs = (0..n).flat_map(|a| (a + 2..n).map(move |b| [a, b]));
+        let diagonals = pairs.filter(|&[a, b]| b - a < n - 1);
+        assert_eq!(diagonals.map(square).min(), Some(square([a, b])), "{n}");
+        assert!(steps > 1, "{n}");
+    }
 }
