@@ -166,11 +166,11 @@ fn paths_have_their_places_colours_and_lines() {
         r"\clip (0,0) rectangle (100,50);
 \fill[fill={{rgb,255:red,255;green,238;blue,204}},binspace/background/.try] (0,0) rectangle (100,50);
 \begin{{scope}}[fill={{rgb,255:red,255;green,0;blue,0}}]
-\fill (77.2,29)--(77.2,33)--(74.8,33)--cycle;
-\fill (80,15)--(80,35)--(70,35)--cycle;
+\fill (74.8,33)--(77.2,29)--(77.2,33)--cycle;
+\fill (70,35)--(80,15)--(80,35)--cycle;
 \end{{scope}}
-\fill[fill={{rgb,255:red,0;green,0;blue,255}}] (10,5)--(90,5)--(90,45)--(10,45)--cycle;
-\fill[fill={{rgb,255:red,0;green,255;blue,0}},fill opacity=0.4] (30,15)--(50,15)--(50,35)--(30,35)--cycle;
+\fill[fill={{rgb,255:red,0;green,0;blue,255}}] (10,45)--(10,5)--(90,5)--(90,45)--cycle;
+\fill[fill={{rgb,255:red,0;green,255;blue,0}},fill opacity=0.4] (30,35)--(30,15)--(50,15)--(50,35)--cycle;
 \begin{{scope}}[{line}1.2bp,dash pattern=on 4bp off 6bp,binspace/hidden/.try,binspace/layers-2/.try]
 \draw[binspace/border/.try] (74.8,33)--(77.2,33)--(77.2,29)--cycle;
 \end{{scope}}
