@@ -307,7 +307,7 @@ mod tests {
             let all: Vec<Piece> = (0..300)
                 .map(|face| Piece::thin(face, &arena[3 * face as usize..][..3], 3 * face as usize))
                 .collect();
-            let is_kept = all.iter().map(|_| random.next() % 3 > 0);
+            let is_kept = all.iter().map(|_| random.next() >> 62 > 0);
             let (mut pieces, ends): (Vec<Piece>, Vec<usize>) = all
                 .iter()
                 .zip(is_kept)
