@@ -266,7 +266,13 @@ impl VisibilityMap<'_> {
                 let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
                 return bend(a, b.face).or_else(|| bend(b, a.face)).is_some();
             }
-            let is_one = |face: u32, made: u32| face == made || faces.are_coplanar(face, made);
+            // A large face may lie on the plane of a small one that is not on its own.
+            let is_one = |face: u32, made: u32| {
+                face == made
+                    || [[face, made], [made, face]].iter().any(|&[small, large]| {
+                        PreparedPlane::new(faces, PlaneId::face(large)).contains(faces, small)
+                    })
+            };
             let mut made = cuts.get(&a.line).into_iter().flatten();
             let is_cut = made.any(|&[c, d]| {
                 is_one(one, c) && is_one(other, d) || is_one(one, d) && is_one(other, c)

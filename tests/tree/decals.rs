@@ -294,7 +294,10 @@ fn hits_are_equal(trees: &[(String, BspTree)], decals: &Decals, dice: &mut Dice)
             hits.map(|hit| (hit.polygon(), hit.parameter())).collect()
         };
         let expected = of(&trees[0].1);
-        assert!(!expected.is_empty(), "{at} {towards}");
+        // A ray along a card whose corners were moved to one plane may miss it.
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+        let grazes = normal.dot(towards.normalize()).abs() < 0.1;
+        assert!(grazes || !expected.is_empty(), "{at} {towards}");
         for (name, tree) in trees {
             assert_eq!(of(tree), expected, "{name}: {at} {towards}");
         }
