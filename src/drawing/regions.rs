@@ -60,8 +60,8 @@ impl VisibilityMap<'_> {
     /// picture without a visible polygon are in no cell.
     ///
     /// The value of no polygons is `nothing`. `behind` returns the value with one more polygon, given its
-    /// number. Cells share the values of the polygons in front of them, so a cell with many polygons takes no
-    /// longer than other cells.
+    /// number. Cells share the values of polygons in front that cover them together. n overlapping polygons have
+    /// up to O(n²) cells and take up to O(n³) calls of `behind`.
     ///
     /// ```
     /// use binspace::drawing::ViewOptions;

@@ -97,7 +97,7 @@ fn judge(polygons: &[Vec<DVec3>], places: i32, dice: &mut Dice, [crossed, crease
     let is_clear = !polygons.iter().any(|p| is_thin(p, &camera, 1e6 * step));
     for (name, tree, exactly, slack) in [
         ("f64", BspTree::build(polygons).unwrap(), exact.build(polygons).unwrap(), 0.02),
-        ("f32", BspTree::build(&single).unwrap(), exact.build(&single).unwrap(), 0.02),
+        ("f32", BspTree::build(&single).unwrap(), exact.build(&single).unwrap(), 2e4 * step),
         (
             "decimals",
             of_decimals.build(&decimals).unwrap(),
