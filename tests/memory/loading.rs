@@ -1,6 +1,6 @@
 //! A file allocates memory in proportion to its size, whatever lengths it claims.
 
-use super::{counted, most_bytes};
+use super::{count_from_here, counted, most_bytes};
 use testkit::prelude::*;
 
 #[test]
@@ -10,10 +10,12 @@ fn a_false_length_allocates_little_memory() {
         BspTree::build(scene::city(buildings, 1).polygons()).unwrap().write(&mut file).unwrap();
         file
     };
-    let (small, large) = (written(60), written(2000));
-    counted(|| read_forged(&small));
-    // The limit also holds for correct files: the tree, the file, and a copy of each.
     counted(|| {
+        let (small, large) = (written(60), written(2000));
+        count_from_here();
+        read_forged(&small);
+        // The limit also holds for correct files: the tree, the file, and a copy of each.
+        count_from_here();
         assert!(BspTree::read(&large[..]).is_ok());
         let most = most_bytes();
         assert!(most < 8 * large.len(), "{most} bytes for {}", large.len());
