@@ -36,26 +36,36 @@ fn boxes(dice: &mut Dice) -> Vec<Vec<DVec3>> {
     triangles
 }
 
-/// Two prisms whose ends are fans of triangles, and whose sides are two triangles each.
+/// Two prisms with uneven sides of two triangles each, whose ends are halved into triangles again and again.
 fn prisms(dice: &mut Dice) -> Vec<Vec<DVec3>> {
     let mut triangles = Vec::new();
     for _ in 0..2 {
         let mut angle = || dice.range(-3.0, 3.0);
         let turn = DQuat::from_euler(EulerRot::XYZ, angle(), angle(), angle());
         let (at, size) = (dice.point(-0.4, 0.4), dice.point(0.5, 1.2));
-        let sides = 5 + dice.below(8);
+        let n = 5 + dice.below(16);
+        let angles: Vec<f64> =
+            (0..n).map(|k| (k as f64 + dice.range(0.0, 0.8)) / n as f64).collect();
         let corner = |k: usize, z: f64| {
-            let (sin, cos) = (std::f64::consts::TAU * (k % sides) as f64 / sides as f64).sin_cos();
+            let (sin, cos) = (std::f64::consts::TAU * angles[k % n]).sin_cos();
             at + turn * (dvec3(cos, sin, z) * size)
         };
-        for k in 0..sides {
+        for k in 0..n {
             let [a, b, c, d] =
                 [corner(k, -1.0), corner(k + 1, -1.0), corner(k + 1, 1.0), corner(k, 1.0)];
             triangles.extend([vec![a, b, c], vec![a, c, d]]);
-            if 0 < k && k + 1 < sides {
-                triangles.push(vec![corner(0, 1.0), d, c]);
-                triangles.push(vec![corner(0, -1.0), b, a]);
+        }
+        let mut parts = vec![(0..n).collect::<Vec<usize>>()];
+        while let Some(mut part) = parts.pop() {
+            if let [a, b, c] = part[..] {
+                triangles.push([a, b, c].map(|k| corner(k, 1.0)).to_vec());
+                triangles.push([c, b, a].map(|k| corner(k, -1.0)).to_vec());
+                continue;
             }
+            let half = part.len() / 2;
+            let rest = [&part[half..], &part[..1]].concat();
+            part.truncate(half + 1);
+            parts.extend([part, rest]);
         }
     }
     dice.shuffle(&mut triangles);
@@ -68,19 +78,16 @@ fn length(runs: &[EdgeRun]) -> f64 {
         .sum()
 }
 
-/// Whether the picture of a triangle is narrower than so many pixels.
-fn is_thin(triangle: &[DVec3], camera: &Camera, width: f64) -> bool {
-    let [a, b, c] = [0, 1, 2].map(|k| DVec2::from(camera.project(triangle[k]).unwrap()));
-    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-    (b - a).perp_dot(c - a).abs() < width * longest
+/// The numbers of trees with visible crossings, for each kind of corners, and the number of creases.
+#[derive(Debug, Default)]
+struct Counts {
+    crossed: [usize; 3],
+    creases: usize,
 }
-
-/// The number of trees with visible crossings, and the number of creases.
-type Counts = [usize; 2];
 
 /// Compares the crossings of some triangles at default tolerances with those at a tolerance of 0, for corners in
 /// `f64`, in `f32`, and with so many decimals.
-fn judge(polygons: &[Vec<DVec3>], places: i32, dice: &mut Dice, [crossed, creases]: &mut Counts) {
+fn judge(polygons: &[Vec<DVec3>], places: i32, dice: &mut Dice, counts: &mut Counts) {
     let single: Vec<Vec<[f32; 3]>> =
         polygons.iter().map(|p| p.iter().map(|p| p.as_vec3().to_array()).collect()).collect();
     let eye = dice.point(-1.0, 1.0).normalize() * 8.0;
@@ -93,32 +100,26 @@ fn judge(polygons: &[Vec<DVec3>], places: i32, dice: &mut Dice, [crossed, crease
     let exact = default.clone().with_tolerance(0.0);
     // As a reader of decimals builds it.
     let of_decimals = default.with_tolerance(4.0 * step);
-    // The picture of a face that is nearly seen edge-on is as narrow as the decimals: an end may be anywhere.
-    let is_clear = !polygons.iter().any(|p| is_thin(p, &camera, 1e6 * step));
-    for (name, tree, exactly, slack) in [
-        ("f64", BspTree::build(polygons).unwrap(), exact.build(polygons).unwrap(), 0.02),
-        ("f32", BspTree::build(&single).unwrap(), exact.build(&single).unwrap(), 2e4 * step),
-        (
-            "decimals",
-            of_decimals.build(&decimals).unwrap(),
-            exact.build(&decimals).unwrap(),
-            2e4 * step,
-        ),
-    ] {
-        if name == "decimals" && !is_clear {
-            continue;
-        }
+    // A unit is about sixty pixels. Lines on a face that is seen almost edge-on meet its sides at a small angle, so
+    // the last decimals move their ends by many times the tolerance.
+    let kinds = [
+        (BspTree::build(polygons).unwrap(), exact.build(polygons).unwrap(), 0.02),
+        (BspTree::build(&single).unwrap(), exact.build(&single).unwrap(), 0.1),
+        (of_decimals.build(&decimals).unwrap(), exact.build(&decimals).unwrap(), 2e5 * step),
+    ];
+    for (kind, (tree, exactly, slack)) in kinds.into_iter().enumerate() {
+        let name = ["f64", "f32", "decimals"][kind];
         let [found, expected] = [&tree, &exactly]
             .map(|tree| length(&map_of(tree, &camera).crossings(Hidden::Skip).unwrap()));
-        *crossed += usize::from(expected > 10.0);
+        counts.crossed[kind] += usize::from(expected > 10.0);
         assert!(
             (found - expected).abs() < slack,
             "{name}: {found} for {expected} from {eye:?}: {polygons:?}"
         );
         for run in map_of(&tree, &camera).edges(Hidden::Keep).unwrap() {
             if let EdgeKind::Crease(angle) = run.kind {
-                *creases += 1;
-                assert!(angle > 0.1, "{name}: {run:?} from {eye:?}: {polygons:?}");
+                counts.creases += 1;
+                assert!(angle > 0.01, "{name}: {run:?} from {eye:?}: {polygons:?}");
             }
         }
     }
@@ -126,22 +127,22 @@ fn judge(polygons: &[Vec<DVec3>], places: i32, dice: &mut Dice, [crossed, crease
 
 #[test]
 fn flat_sides_of_triangles_have_whole_crossings_and_no_edges_inside() {
-    let mut counts = [0; 2];
+    let mut counts = Counts::default();
     for seed in seeds(60) {
         let mut dice = Dice(seed);
         judge(&boxes(&mut dice), 6, &mut dice, &mut counts);
     }
-    enough!(counts[0] > 85, counts[1] > 1500; "{counts:?}");
+    enough!(counts.crossed.iter().all(|&n| n > 25), counts.creases > 1500; "{counts:?}");
 }
 
 #[test]
 fn flat_ends_of_many_triangles_have_whole_crossings_and_no_edges_inside() {
-    let mut counts = [0; 2];
-    for seed in seeds(60) {
+    let mut counts = Counts::default();
+    for seed in seeds(100) {
         let mut dice = Dice(seed);
         judge(&prisms(&mut dice), 5, &mut dice, &mut counts);
     }
-    enough!(counts[0] > 85, counts[1] > 3000; "{counts:?}");
+    enough!(counts.crossed.iter().all(|&n| n > 60), counts.creases > 3000; "{counts:?}");
 }
 
 /// The first polygon lies on the plane of the third one, which cuts the second: the first is the largest, and the
