@@ -266,16 +266,13 @@ impl VisibilityMap<'_> {
                 let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
                 return bend(a, b.face).or_else(|| bend(b, a.face)).is_some();
             }
-            // A large face may lie on the plane of a small one that is not on its own.
-            let is_one = |face: u32, made: u32| {
-                face == made
-                    || [[face, made], [made, face]].iter().any(|&[small, large]| {
-                        PreparedPlane::new(faces, PlaneId::face(large)).contains(faces, small)
-                    })
-            };
             let mut made = cuts.get(&a.line).into_iter().flatten();
             let is_cut = made.any(|&[c, d]| {
-                is_one(one, c) && is_one(other, d) || is_one(one, d) && is_one(other, c)
+                let are_on = |a, b| {
+                    faces.is_one_on_plane_of_other(one, a)
+                        && faces.is_one_on_plane_of_other(other, b)
+                };
+                are_on(c, d) || are_on(d, c)
             });
             if is_cut && !faces.are_coplanar(one, other) {
                 return true;

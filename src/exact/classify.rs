@@ -101,14 +101,14 @@ impl PreparedPlane {
         n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - self.offset
     }
 
-    /// The side of the plane on which every piece with rounded vertices in a box lies; `None` if the box does
-    /// not decide.
+    /// The side of the plane on which every piece with rounded vertices in a box lies, further than twice the
+    /// tolerance from the plane; `None` if the box does not decide.
     pub(crate) fn side_of_box(&self, [low, high]: [[f64; 3]; 2]) -> Option<Side> {
         let lowest = std::array::from_fn(|i| if self.normal[i] > 0.0 { low[i] } else { high[i] });
         let highest = std::array::from_fn(|i| if self.normal[i] > 0.0 { high[i] } else { low[i] });
         // The bound is for a vertex at the corner of the box. Other vertices of the piece may have larger
         // coordinates, and so larger errors: three roundings of the largest coordinate, a third of the bound.
-        let far = self.band + 2.0 * self.bound;
+        let far = 2.0 * (self.band + self.bound);
         if self.distance(lowest) > far {
             Some(Side::Front)
         } else if self.distance(highest) < -far {
@@ -179,6 +179,15 @@ impl PreparedPlane {
         let twice = 2.0 * self.band + self.bound;
         let reaches = low <= twice && high >= -twice;
         (self.side_of_extent(faces, face, cut, [low, high]), reaches)
+    }
+
+    /// Whether a whole piece may be within twice the tolerance of the plane.
+    pub(crate) fn stays_near(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> bool {
+        let (low, high) = match cut {
+            Some(vertices) => self.extent(vertices.iter().map(|vertex| vertex.position)),
+            None => self.extent(faces.corners(face).iter().copied()),
+        };
+        high.max(-low) <= 2.0 * self.band + self.bound
     }
 
     /// The side of a piece whose rounded vertices extend from `low` to `high`.

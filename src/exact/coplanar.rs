@@ -7,10 +7,21 @@
 //!
 //! The relation is symmetric, but not transitive: two faces can be coplanar with a third and up to 2 τ apart.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
 use super::plane::RoundedNormal;
-use super::{Faces, PreparedPlane, Side};
+use super::{Faces, PlaneId, PreparedPlane, Side, Vertex};
+
+/// The rounded vertices of a piece, in order.
+pub(crate) type Outline = SmallVec<[[f64; 3]; 8]>;
+
+/// The same points without one of their coordinates.
+type FlatOutline = SmallVec<[DVec2; 8]>;
+
+/// If outlines have more pairs of corners, they count as overlapping. Too small: planes give way without
+/// need. Too large: time.
+const MANY: usize = 1 << 12;
 
 impl Faces {
     /// Whether one face is larger than another, by the areas of their reference triangles, rounded: the larger
@@ -23,11 +34,64 @@ impl Faces {
         a > b || a == b && one < other
     }
 
+    /// Whether a face is a polygon, not a segment or a point.
+    fn has_area(&self, face: u32) -> bool {
+        (face as usize) < self.first_thin()
+    }
+
+    /// The larger of two faces, then the smaller. Faces without area are the smallest.
+    fn by_size(&self, one: u32, other: u32) -> [u32; 2] {
+        let is_larger = match [one, other].map(|face| self.has_area(face)) {
+            [true, true] => self.is_larger(one, other),
+            [has_area, _] => has_area,
+        };
+        if is_larger { [one, other] } else { [other, one] }
+    }
+
     /// Whether two faces lie in one plane.
-    #[cfg(any(feature = "drawing", test))]
     pub(crate) fn are_coplanar(&self, one: u32, other: u32) -> bool {
-        let [large, small] = if self.is_larger(one, other) { [one, other] } else { [other, one] };
-        PreparedPlane::new(self, super::PlaneId::face(large)).contains(self, small)
+        let [large, small] = self.by_size(one, other);
+        PreparedPlane::new(self, PlaneId::face(large)).contains(self, small)
+    }
+
+    /// Whether either of two faces is within the tolerance of the other one's plane. This holds for coplanar faces,
+    /// and also for a large face on the plane of a small one that leaves the large face's plane.
+    #[cfg(feature = "drawing")]
+    pub(crate) fn is_one_on_plane_of_other(&self, one: u32, other: u32) -> bool {
+        one == other
+            || [[one, other], [other, one]].iter().any(|&[plane, face]| {
+                PreparedPlane::new(self, PlaneId::face(plane)).contains(self, face)
+            })
+    }
+
+    /// Whether two coplanar convex outlines overlap by more than the tolerance, seen along an axis, given a face in
+    /// their plane: no side of one has the other entirely outside (the separating axes of convex polygons). Neighbours
+    /// in a mesh, which share an edge, do not overlap. An outline of two points is a segment.
+    pub(crate) fn overlap(&self, face: u32, outlines: [&Outline; 2]) -> bool {
+        let [a, b] = self.flat(face, outlines);
+        a.len() * b.len() > MANY || {
+            let margin = self.tolerance();
+            !has_outside(&a, &b, margin) && !has_outside(&b, &a, margin)
+        }
+    }
+
+    /// Whether the first of two coplanar outlines lies in the second, which is convex, or beyond its sides by no more
+    /// than the tolerance.
+    pub(crate) fn is_inside(&self, face: u32, outlines: [&Outline; 2]) -> bool {
+        let [inner, outer] = self.flat(face, outlines);
+        let margin = self.tolerance();
+        sides(&outer).all(|[a, side]| {
+            let most = margin * side.length();
+            inner.iter().all(|&p| side.perp_dot(p - a) >= -most)
+        })
+    }
+
+    /// Outlines without the coordinate along which a face's normal is longest.
+    fn flat(&self, face: u32, outlines: [&Outline; 2]) -> [FlatOutline; 2] {
+        let normal = self.normal(face).abs();
+        let axis = (0..3).max_by(|&a, &b| normal[a].total_cmp(&normal[b])).unwrap_or(0);
+        let flat = |p: &[f64; 3]| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+        outlines.map(|outline| outline.iter().map(flat).collect())
     }
 }
 
@@ -37,8 +101,29 @@ impl PreparedPlane {
     pub(crate) fn contains(&self, faces: &Faces, face: u32) -> bool {
         // Most planes are far from the first corner.
         self.distance(faces.corners(face)[0]).abs() <= self.slack()
-            && self.classify(faces, face, None) == Side::Coplanar
+            && match faces.has_area(face) {
+                true => self.classify(faces, face, None),
+                false => {
+                    let ends: SmallVec<[Vertex; 2]> = Vertex::corners(faces, face).collect();
+                    self.classify(faces, face, Some(&ends))
+                }
+            } == Side::Coplanar
     }
+}
+
+/// Whether some side of a convex outline has no point of another outline inside by more than a margin.
+fn has_outside(outline: &[DVec2], other: &[DVec2], margin: f64) -> bool {
+    sides(outline).any(|[a, side]| {
+        let most = margin * side.length();
+        side != DVec2::ZERO && other.iter().all(|&p| side.perp_dot(p - a) <= most)
+    })
+}
+
+/// The sides of a convex outline, each with its first point and as a vector with the inside to its left.
+fn sides(outline: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
+    let next = || outline.iter().cycle().skip(1);
+    let area: f64 = outline.iter().zip(next()).map(|(a, b)| a.perp_dot(*b)).sum();
+    outline.iter().zip(next()).map(move |(&a, &b)| [a, (b - a) * area.signum()])
 }
 
 #[cfg(test)]

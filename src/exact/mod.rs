@@ -16,6 +16,7 @@ mod split;
 pub(crate) mod vertex;
 
 pub use classify::{PreparedPlane, Side};
+pub(crate) use coplanar::Outline;
 pub use eye::Eye;
 pub use faces::Faces;
 pub(crate) use int::{Int, gcd};

@@ -24,9 +24,15 @@ impl Vertex {
         Self { position, vertex_id: VertexId::corner(k), line: EdgeLine::edge(k) }
     }
 
-    /// Returns the corners of a face, in order around it.
+    /// Returns the corners of a face, in order around it; for a segment its ends, which lie on the first edge of its
+    /// face.
     pub fn corners(faces: &Faces, face: u32) -> impl Iterator<Item = Self> {
-        (0..faces.corners(face).len() as u32).map(move |k| Self::corner(faces, face, k))
+        let count = faces.reach(face);
+        let is_thin = count < faces.corners(face).len();
+        (0..count as u32).map(move |k| {
+            let corner = Self::corner(faces, face, k);
+            if is_thin { corner.with_line(EdgeLine::edge(0)) } else { corner }
+        })
     }
 
     /// Returns the position of the vertex in lattice units, rounded.

@@ -40,10 +40,10 @@ pub struct Preparation {
     /// The number of input polygons.
     pub polygons: usize,
     /// The number of polygons without area, which have no [fragments](crate::Fragment): polygons with fewer
-    /// than three different corners, or with collinear corners. The count is exact after corners are rounded
-    /// to the [grid](crate::Grid). Corners that are collinear as decimal numbers may not be collinear as
-    /// `f64`. In the tree of a cell of a [partition](crate::partition), polygons outside the cell are counted
-    /// too.
+    /// than three different corners, with collinear corners, or with an outline that returns along itself.
+    /// The count is exact after corners are rounded to the [grid](crate::Grid). Corners that are collinear as
+    /// decimal numbers may not be collinear as `f64`. In the tree of a cell of a
+    /// [partition](crate::partition), polygons outside the cell are counted too.
     pub dropped: usize,
     /// The number of polygons that were not convex, or not planar within the [tolerance](crate::Tolerance),
     /// and became triangles.

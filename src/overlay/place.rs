@@ -5,12 +5,13 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec4};
 
+use super::hosts::Hosts;
 use super::order::{Branch, InsertionTree, Place, SlotSide};
 use super::thin::{Anchors, between};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::error::{Error, Kind};
-use crate::exact::{EdgeLine, Faces, PlaneId, PreparedPlane, Side, StoredVertex, Vertex};
+use crate::exact::{Faces, PlaneId, PreparedPlane, Side, StoredVertex, Vertex};
 use crate::progress::Watch;
 use crate::tree::BspTree;
 use crate::tree::node::{MOST_FRAGMENTS, NodeRecord, Ranges, Sizes, finish, make_room};
@@ -28,6 +29,7 @@ pub(super) struct Placer {
     cells: OverlayBuilder,
     cell: CellTree,
     anchors: Anchors,
+    hosts: Hosts,
     /// A stack of the sets still to be divided, with the next set on top. Each set is in the order of faces:
     /// polygons, then lines, then points.
     pieces: Vec<Piece>,
@@ -89,8 +91,9 @@ impl Placer {
 impl Work<'_> {
     fn begin(&mut self) -> Result<(), Error> {
         let Self { tree, faces, thin, watch, .. } = *self;
-        let Placer { pieces, arena, pending, anchors, crowd, .. } = &mut *self.placer;
+        let Placer { pieces, arena, pending, anchors, hosts, crowd, .. } = &mut *self.placer;
         anchors.fill(faces, watch)?;
+        hosts.reset(faces.len() - tree.faces.len());
         pieces.clear();
         arena.clear();
         pending.clear();
@@ -99,10 +102,7 @@ impl Work<'_> {
         pieces.extend((first..thin).map(|face| Piece::whole(faces, face)));
         for face in thin..faces.len() as u32 {
             let start = arena.len();
-            let ends = 0..faces.reach(face) as u32;
-            // Both ends are on the segment, which is the first edge of its face.
-            let end = |k| Vertex::corner(faces, face, k).with_line(EdgeLine::edge(0));
-            arena.extend(ends.map(end));
+            arena.extend(Vertex::corners(faces, face));
             pieces.push(Piece::thin(face, &arena[start..], start));
         }
         let all = 0..pieces.len();
@@ -144,7 +144,13 @@ impl Work<'_> {
         let prepared = PreparedPlane::new(self.faces, branch.plane);
         let side = self.side_of_all(start, crowd, &prepared);
         if side.is_none() {
-            self.divide(start, &prepared)?;
+            let [own, front, back] =
+                [&own, &in_front.fragments, &behind.fragments].map(Range::clone);
+            let has_hosts = in_front.of == Whose::Tree
+                && self.faces.tolerance() > 0.0
+                && !(own.is_empty() && front.is_empty() && back.is_empty());
+            let node = has_hosts.then_some(Ranges { own, front, back });
+            self.divide(start, &prepared, node.as_ref())?;
         }
         let own = if in_front.of == Whose::Cell { own } else { 0..0 };
         branch.pieces = self.store_all(own);
@@ -185,13 +191,29 @@ impl Work<'_> {
     }
 
     /// Divides the topmost set of the stack: pieces behind stay on the stack, pieces in front go to `front`,
-    /// and pieces on the plane to `own`.
-    fn divide(&mut self, start: usize, prepared: &PreparedPlane) -> Result<(), Error> {
-        let Placer { pieces, arena, front, own, splitter, .. } = &mut *self.placer;
+    /// and pieces on the plane to `own`. `node` are the tree's fragments on the plane and on its sides, if any: a piece
+    /// near the plane may follow the [polygon](Hosts) on which it lies.
+    fn divide(
+        &mut self,
+        start: usize,
+        prepared: &PreparedPlane,
+        node: Option<&Ranges>,
+    ) -> Result<(), Error> {
+        let Placer { pieces, arena, front, own, splitter, hosts, .. } = &mut *self.placer;
+        let Self { tree, faces, watch, .. } = *self;
         let mut back = start;
         for i in start..pieces.len() {
             let piece = pieces[i];
-            let behind = match piece.side(self.faces, prepared, arena) {
+            let cut = piece.cut_vertices(arena);
+            let (mut side, reaches) = prepared.classify_and_reach(faces, piece.face, cut);
+            if let Some(node) = node
+                && reaches
+                && prepared.stays_near(faces, piece.face, cut)
+            {
+                let on = (prepared.id(), side);
+                side = hosts.side((tree, faces), piece.face, on, node, watch)?;
+            }
+            let behind = match side {
                 Side::Back => Some(piece),
                 Side::Front => {
                     front.push(piece);
@@ -202,7 +224,7 @@ impl Work<'_> {
                     None
                 }
                 Side::Spanning => {
-                    let parts = splitter.cut(self.faces, prepared, &piece, arena)?;
+                    let parts = splitter.cut(faces, prepared, &piece, arena)?;
                     front.push(parts[0]);
                     Some(parts[1])
                 }

@@ -7,7 +7,6 @@ use std::ops::Range;
 use smallvec::SmallVec;
 
 use super::ray::upright;
-use super::walk::next_block;
 use crate::exact::half_space::{self, ExactHalfSpace, LineValues};
 use crate::exact::{EdgeLine, Faces, VertexKind};
 use crate::tree::bounds::Bounds;
@@ -109,7 +108,7 @@ impl Iterator for FragmentsIn<'_> {
                 return Some(number);
             }
             let sides = &self.sides;
-            let (block, is_inside) = next_block(self.bounds, &mut self.rest, |bounds: &Flat| {
+            let (block, is_inside) = self.bounds.next_block(&mut self.rest, |bounds: &Flat| {
                 if sides.iter().any(|side| side.outer.is_behind(bounds)) {
                     Some(false)
                 } else {

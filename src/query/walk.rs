@@ -15,7 +15,7 @@ use crate::exact::LATTICE_LIMIT;
 use crate::exact::lattice::MAX_CORNER;
 use crate::tree::bounds::Bounds;
 use crate::tree::node::Ranges;
-use crate::tree::{BLOCK, BspTree, Flat};
+use crate::tree::{BspTree, Flat};
 
 /// The parts of a tree that a ray has not reached yet.
 #[derive(Clone, Debug)]
@@ -259,33 +259,8 @@ impl<'t> Boxes<'t> {
             let [enter, leave] = self.within(bounds);
             !(enter <= leave && enter <= to && leave >= from)
         };
-        next_block(self.bounds, run, |bounds| is_passed(bounds).then_some(false))
+        self.bounds
+            .next_block(run, |bounds| is_passed(bounds).then_some(false))
             .map(|(block, _)| block.start)
     }
-}
-
-/// Removes blocks from the start of a run of fragments, including the first block that may be inside a
-/// region. Returns that block, and whether the block is certainly inside. A block that is not certainly
-/// inside is a single fragment. `is_inside` returns whether a box is inside, or `None` if it cannot decide.
-#[inline]
-pub(super) fn next_block(
-    bounds: &Bounds,
-    run: &mut Range<u32>,
-    is_inside: impl Fn(&Flat) -> Option<bool>,
-) -> Option<(Range<u32>, bool)> {
-    while run.start < run.end {
-        let (mut level, mut len) = bounds.block(run);
-        let found = loop {
-            match is_inside(&bounds.get(level, run.start / len)) {
-                None if level > 0 => (level, len) = (level - 1, len / BLOCK as u32),
-                found => break found,
-            }
-        };
-        let block = run.start..run.start + len;
-        run.start = block.end;
-        if found != Some(false) {
-            return Some((block, found.is_some()));
-        }
-    }
-    None
 }

@@ -4,7 +4,6 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::walk::next_block;
 use crate::error::{Error, Kind};
 use crate::exact::eye::ExactRay;
 use crate::exact::{Faces, LATTICE_LIMIT, Plane, PlaneId, chain, integers};
@@ -102,7 +101,7 @@ impl BspTree {
         let (bounds, mut run) = (self.boxes(), 0..self.len() as u32);
         let mut faces = Vec::new();
         while let Some((block, _)) =
-            next_block(bounds, &mut run, |bounds| is_apart(bounds).then_some(false))
+            bounds.next_block(&mut run, |bounds| is_apart(bounds).then_some(false))
         {
             faces.extend(block.map(|fragment| self.records[fragment as usize].face));
         }

@@ -204,6 +204,32 @@ impl Bounds {
         (level, len)
     }
 
+    /// Removes blocks from the start of a run of fragments, including the first block that may be inside a
+    /// region. Returns that block, and whether the block is certainly inside. A block that is not certainly
+    /// inside is a single fragment. `is_inside` returns whether a box is inside, or `None` if it cannot decide.
+    #[inline]
+    pub(crate) fn next_block(
+        &self,
+        run: &mut Range<u32>,
+        is_inside: impl Fn(&Flat) -> Option<bool>,
+    ) -> Option<(Range<u32>, bool)> {
+        while run.start < run.end {
+            let (mut level, mut len) = self.block(run);
+            let found = loop {
+                match is_inside(&self.get(level, run.start / len)) {
+                    None if level > 0 => (level, len) = (level - 1, len / BLOCK as u32),
+                    found => break found,
+                }
+            };
+            let block = run.start..run.start + len;
+            run.start = block.end;
+            if found != Some(false) {
+                return Some((block, found.is_some()));
+            }
+        }
+        None
+    }
+
     /// The size on the heap in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&*self.nodes)
@@ -282,7 +308,7 @@ impl Block {
 }
 
 /// A box given in lattice units, rounded outwards to `f32`.
-fn outwards(low: [f64; 3], high: [f64; 3]) -> Flat {
+pub(crate) fn outwards(low: [f64; 3], high: [f64; 3]) -> Flat {
     std::array::from_fn(|i| {
         let exact = if i < 3 { low[i] } else { high[i - 3] } / LATTICE_LIMIT;
         let rounded = exact as f32;

@@ -15,7 +15,7 @@ mod tests;
 #[cfg(feature = "validate")]
 mod validate;
 
-pub(crate) use bounds::{BLOCK, Flat, HalfSpace, rounding};
+pub(crate) use bounds::{Flat, HalfSpace, rounding};
 pub use bsp_tree::{BspTree, Stats};
 pub use culling::Culling;
 pub use fragment::{Fragment, FragmentArrays, Grid};

@@ -8,6 +8,7 @@ mod crowd;
 mod culled;
 mod errors;
 mod hits;
+mod hosts;
 mod judge;
 mod lines;
 mod marks;

@@ -336,6 +336,26 @@ fn the_largest_of_many_nested_cards_holds_all() {
     }
 }
 
+/// The plane of each strip holds the smaller strip that overlaps its beginning, but the larger strip that overlaps its
+/// end leaves it. So planes give way to the next many times, up to the plane of the largest strip, which holds all.
+#[test]
+fn the_largest_of_many_strips_that_overlap_end_to_end_holds_all() {
+    let length = |k: i32| 0.01 * 1.5f64.powi(k);
+    let strip = |k: i32| {
+        let start: f64 = (0..k).map(|i| 0.9 * length(i)).sum();
+        let half = if k < 19 { 0.45 * WIDE } else { 0.0 };
+        [[0.0, -0.1], [1.0, -0.1], [1.0, 0.1], [0.0, 0.1]]
+            .map(|[share, y]| dvec3(start + share * length(k), y, half * (2.0 * share - 1.0)))
+    };
+    let mut all: Vec<Card> = (0..20).map(strip).collect();
+    for _ in 0..20 {
+        all.rotate_left(1);
+        for (name, tree) in trees(&all, BuildOptions::DEFAULT.with_tolerance(WIDE)) {
+            assert_eq!((tree.len(), tree.stats().nodes), (20, 1), "{name}");
+        }
+    }
+}
+
 /// The larger of two neighbours nearly in one plane has the more certain plane. It replaces the first plane only if
 /// the two overlap by more than the tolerance.
 #[test]

@@ -1,20 +1,20 @@
 //! Keeps coplanar pieces together: a plane that would separate two of them gives way to the plane of the
 //! larger one.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::ChooseContext;
 use super::set::Set;
 use crate::Error;
 use crate::build::piece::{Division, Piece};
-use crate::exact::{PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side};
+use crate::exact::{Outline, PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side};
 use crate::progress::Watch;
 
 /// The largest number of faces whose planes are tried, including the first plane if it is a face's. Too small:
 /// of several pieces, each coplanar only with the next, two lose input order. Too large: a set that is made for
 /// it is classified so often.
-const MOST_PLANES: usize = 8;
+const MOST_PLANES: usize = 32;
 
 /// Classifies a set by a plane. If the plane would separate coplanar pieces that overlap, or cut one of them,
 /// classifies the set by the plane of the larger piece instead.
@@ -24,7 +24,7 @@ const MOST_PLANES: usize = 8;
 /// side or on both. [`Faces::are_coplanar`](crate::exact::Faces::are_coplanar) decides what is coplanar. A
 /// piece can be coplanar with several that are not coplanar with each other. Then there may be no plane that
 /// keeps all of them together: the search ends when every larger face was tried, or after [`MOST_PLANES`]
-/// faces, and the last plane is used. (Any of them would do, because each separates some pair.)
+/// faces, and the last plane is used.
 pub(in crate::build) fn settle(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
@@ -211,37 +211,13 @@ impl SortedPieces {
     }
 }
 
-/// If outlines have more pairs of corners, they count as overlapping. Too small: planes give way without
-/// need. Too large: time.
-const MANY: usize = 1 << 12;
-
-/// Whether two coplanar pieces overlap by more than the tolerance, seen along an axis: no side of one has the
-/// other entirely outside (the separating axes of convex polygons). Neighbours in a mesh, which share an edge,
-/// do not overlap.
+/// Whether two coplanar pieces overlap.
 fn overlap(set: &Set<'_>, large: &Piece, small: &Piece) -> bool {
-    let normal = set.faces.normal(large.face).abs();
-    let axis = (0..3).max_by(|&a, &b| normal[a].total_cmp(&normal[b])).unwrap_or(0);
     let outline = |piece: &Piece| {
-        let mut outline: SmallVec<[DVec2; 8]> = SmallVec::new();
-        piece.for_each_vertex(set.faces, set.arena, |p| {
-            outline.push(DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]));
-        });
+        let mut outline = Outline::new();
+        piece.for_each_vertex(set.faces, set.arena, |p| outline.push(p));
         outline
     };
     let [a, b] = [large, small].map(outline);
-    a.len() * b.len() > MANY || {
-        let margin = set.faces.tolerance();
-        !has_outside(&a, &b, margin) && !has_outside(&b, &a, margin)
-    }
-}
-
-/// Whether some side of a convex outline has no point of another outline inside by more than a margin.
-fn has_outside(outline: &[DVec2], other: &[DVec2], margin: f64) -> bool {
-    let next = || outline.iter().cycle().skip(1);
-    let area: f64 = outline.iter().zip(next()).map(|(a, b)| a.perp_dot(*b)).sum();
-    outline.iter().zip(next()).any(|(&a, &b)| {
-        let side = (b - a) * area.signum();
-        let most = margin * side.length();
-        side != DVec2::ZERO && other.iter().all(|&p| side.perp_dot(p - a) <= most)
-    })
+    set.faces.overlap(large.face, [&a, &b])
 }

@@ -1,0 +1,280 @@
+//! Shapes on a flat wall of several polygons whose planes differ by rounding. A shape within a larger polygon of the
+//! wall comes after that polygon, even if it also lies on the plane of a smaller one.
+
+use binspace::glam::{DQuat, EulerRot};
+use binspace::overlay::{Overlay, Shape, Shapes};
+use std::f64::consts::TAU;
+use testkit::prelude::*;
+use testkit::rational::{exact, scalar};
+use testkit::scenes::trees;
+
+/// The plane of the first triangle holds the card, but the large triangle is behind it.
+#[test]
+fn a_card_on_a_large_triangle_and_on_the_plane_of_a_small_one() {
+    let walls = [
+        [
+            [-2.1337218_f32, -2.2949183, 1.526358],
+            [-2.3060207, -2.080527, 1.707231],
+            [-2.4403617, -1.7868811, 2.2706523],
+        ],
+        [
+            [-2.4403617, -1.7868811, 2.2706523],
+            [-1.5958664, -2.2375739, 3.3881772],
+            [-1.0210027, -2.8887575, 2.9988248],
+        ],
+        [
+            [-1.6056488, -1.3677948, 2.9943402],
+            [-0.55537224, -2.3880506, 2.8488884],
+            [-0.75134426, -2.5650582, 1.6491834],
+        ],
+    ];
+    let card = [
+        [-2.3046045_f32, -1.8723917, 2.4066896],
+        [-2.325413, -1.860593, 2.3814704],
+        [-2.3284426, -1.8481044, 2.4137669],
+    ];
+    for &heuristic in Heuristic::ALL {
+        let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(walls).expect("a tree");
+        let mut overlay = Overlay::new(&tree);
+        overlay.replace(&tree, [card]).expect("on the grid");
+        let direction = [-0.43352870230296614, -1.07209176435204, -0.26036517897751944];
+        for sign in [1.0, -1.0] {
+            let view = Viewpoint::direction(direction.map(|c| sign * c));
+            let order = overlay.order(&tree, view).expect("its own tree").into_iter();
+            let order: Vec<usize> = order.filter_map(|s| Some(s.fragment()?.polygon())).collect();
+            let place = |wanted| order.iter().position(|&polygon| polygon == wanted);
+            assert!(place(1) < place(3), "{heuristic} {sign}: {order:?}");
+        }
+    }
+}
+
+fn square(x: f64, y: f64, size: f64, z: f64) -> [DVec3; 4] {
+    [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]].map(|[a, b]| dvec3(x + a, y + b, z))
+}
+
+/// A card lies over a small square and over a large one that is one and a half tolerances above or below.
+#[test]
+fn a_card_on_two_polygons_keeps_its_order_with_the_larger() {
+    let mut whole = 0;
+    for (side, is_reversed) in [(1.0, false), (1.0, true), (-1.0, false), (-1.0, true)] {
+        let mut still = vec![square(0.0, 0.0, 1.0, 0.0), square(1.0, 0.0, 9.0, 1.5e-3 * side)];
+        if is_reversed {
+            still.reverse();
+        }
+        for (name, tree) in trees(&still, BuildOptions::DEFAULT.with_tolerance(1e-3)) {
+            let mut overlay = Overlay::new(&tree);
+            overlay.replace(&tree, [square(0.6, 0.3, 0.5, 0.75e-3 * side)]).expect("on the grid");
+            let large = usize::from(!is_reversed);
+            for z in [1.0, -1.0] {
+                let view = Viewpoint::direction([0.1, 0.2, z]);
+                let order = overlay.order(&tree, view).expect("its own tree").into_iter();
+                let order: Vec<usize> =
+                    order.filter_map(|s| Some(s.fragment()?.polygon())).collect();
+                let place = |wanted| order.iter().position(|&polygon| polygon == wanted);
+                // A plane across may cut the large square.
+                if order.len() == 3 {
+                    assert!(place(large) < place(2), "{name} {side} {z}: {order:?}");
+                    whole += 1;
+                }
+            }
+        }
+    }
+    assert!(whole > 40, "{whole}");
+}
+
+/// A wall lies almost the tolerance above the plane of a small triangle beside it, and cards almost the tolerance above
+/// the wall. Many cards move to one side of a plane at once.
+#[test]
+fn one_card_or_many_on_a_wall_that_lies_on_another_plane() {
+    for side in [1.0, -1.0] {
+        let still = [square(40.0, 0.0, 1.0, 0.0), square(0.0, 0.0, 30.0, 0.9e-3 * side)];
+        let options = BuildOptions::DEFAULT.with_tolerance(1e-3).with_heuristic(Heuristic::First);
+        let tree = options.build(still).expect("a tree");
+        let mut overlay = Overlay::new(&tree);
+        for count in [1, 800] {
+            let card = |k: usize| {
+                let (x, y) = ((k % 29) as f64, (k / 29) as f64);
+                square(x + 0.2, y + 0.2, 0.5, 1.8e-3 * side)
+            };
+            overlay.replace(&tree, (0..count).map(card)).expect("on the grid");
+            for z in [1.0, -1.0] {
+                let direction = Viewpoint::direction([0.1, 0.2, z]);
+                let order = overlay.order(&tree, direction).expect("its own tree").into_iter();
+                let order: Vec<u32> = order.map(|shape| shape.index()).collect();
+                let wall = order
+                    .iter()
+                    .position(|&i| tree.fragments().any(|f| f.index() == i && f.polygon() == 1));
+                let card = order.iter().position(|&i| i as usize >= tree.len());
+                assert!(wall < card, "{count} {side} {z}");
+                assert_eq!(order.len(), count + 2);
+            }
+        }
+    }
+}
+
+/// How the corners of a wall and of shapes on it are given.
+#[derive(Clone, Copy, Debug)]
+enum Numbers {
+    Single,
+    Decimal(i32),
+}
+
+impl Numbers {
+    fn round(self, p: DVec3) -> DVec3 {
+        match self {
+            Self::Single => p.as_vec3().as_dvec3(),
+            Self::Decimal(places) => (p * 10f64.powi(places)).round() / 10f64.powi(places),
+        }
+    }
+
+    fn tolerance(self) -> Option<f64> {
+        match self {
+            Self::Single => None,
+            Self::Decimal(places) => Some(2.0 * 10f64.powi(-places)),
+        }
+    }
+}
+
+/// A flat polygon in triangles, a small grid of squares, or both; with small cards on it, and some other triangles.
+fn wall(dice: &mut Dice, at: impl Fn(f64, f64) -> DVec3) -> Vec<Corners> {
+    let mut all: Vec<Corners> = Vec::new();
+    if dice.below(4) > 0 {
+        let mut angles: Vec<f64> = (0..4 + dice.below(7)).map(|_| dice.share() * TAU).collect();
+        angles.sort_by(f64::total_cmp);
+        let corners: Vec<DVec3> = angles.iter().map(|a| at(a.cos(), a.sin())).collect();
+        let (mut low, mut high) = (0, corners.len() - 1);
+        while high - low > 1 {
+            let middle = if dice.below(2) == 0 { low + 1 } else { high - 1 };
+            all.push([low, middle, high].map(|i| corners[i]).into());
+            if middle == low + 1 { low += 1 } else { high -= 1 }
+        }
+    } else {
+        let n = 2 + dice.below(10);
+        for i in 0..n * n {
+            let at = |x: usize, y: usize| at(2.0 * x as f64 / n as f64, 2.0 * y as f64 / n as f64);
+            let (x, y) = (i % n, i / n);
+            all.push(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)]);
+        }
+    }
+    for _ in 0..dice.below(5) {
+        all.push((0..3).map(|_| dice.point(-1.5, 1.5)).collect());
+    }
+    for _ in 0..dice.below(4) {
+        let (x, y, size) = (dice.range(-0.7, 0.7), dice.range(-0.7, 0.7), dice.range(0.02, 0.3));
+        let mut corner = || at(x + size * dice.around_zero(4) / 4.0, y + size * dice.share());
+        all.push(vec![corner(), corner(), corner()]);
+    }
+    all
+}
+
+/// Whether all given corners are clearly within the tolerance of a face's plane.
+fn are_on(faces: &Faces, face: u32, corners: &[[f64; 3]]) -> bool {
+    let plane = model::plane(faces, PlaneId::face(face));
+    let most = exact(faces.tolerance()) * exact(1.0 - 1e-6);
+    let most = &most * &most * scalar(&plane.normal, &plane.normal);
+    corners.iter().all(|corner| {
+        let off: Rational = plane.at(&corner.map(exact));
+        &off * &off <= most
+    })
+}
+
+/// Twice the area of a triangle.
+fn area(corners: &[DVec3]) -> f64 {
+    (corners[1] - corners[0]).cross(corners[2] - corners[0]).length()
+}
+
+#[derive(Default)]
+struct Judged {
+    /// Shapes that were judged: polygons, lines, points.
+    shapes: [usize; 3],
+    /// Those that also lie on the plane of another polygon, which the host leaves on one side.
+    on_two_planes: usize,
+}
+
+/// Puts shapes inside polygons of a wall, and judges the order of each shape and the polygon.
+fn judge(dice: &mut Dice, numbers: Numbers, judged: &mut Judged) {
+    let mut angle = || dice.range(0.0, TAU);
+    let turn = DQuat::from_euler(EulerRot::XYZ, angle(), angle(), angle());
+    let middle = turn * DVec3::Z * dice.range(-2.0, 2.0);
+    let at = |x: f64, y: f64| middle + turn * dvec3(x, y, 0.0);
+    let polygons: Vec<Corners> = wall(dice, at)
+        .into_iter()
+        .map(|polygon| polygon.into_iter().map(|p| numbers.round(p)).collect::<Corners>())
+        .filter(|polygon| area(polygon) > 1e-7)
+        .collect();
+    let heuristic = Heuristic::ALL[dice.below(Heuristic::ALL.len())];
+    let mut options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+    if let Some(tolerance) = numbers.tolerance() {
+        options = options.with_tolerance(tolerance);
+    }
+    let single = |polygon: &Corners| polygon.iter().map(|p| p.as_vec3()).collect::<Vec<_>>();
+    let tree = match numbers {
+        Numbers::Single => options.build(polygons.iter().map(single)),
+        _ => options.build(&polygons),
+    }
+    .expect("a tree");
+    let mut overlay = Overlay::new(&tree);
+    for _ in 0..8 {
+        let fragment = tree.fragment(dice.below(tree.len()) as u32);
+        let (host, corners) = (fragment.face(), &polygons[fragment.polygon()]);
+        // A plane of the tree that cuts the host separates parts within the tolerance of that plane.
+        if tree.fragments().filter(|f| f.face() == host).count() > 1 {
+            continue;
+        }
+        let [p, q, r] = [0, 1, 2].map(|i| corners[i]);
+        let (x, y, size) = (dice.range(0.1, 0.8), dice.range(0.1, 0.8), 0.1 * dice.share());
+        let mut inside = || {
+            let [x, y] = [x + size * dice.share(), y + size * dice.share()];
+            let [x, y] = if x + y < 0.97 { [x, y] } else { [0.97 - y, 0.97 - x].map(|c| c.abs()) };
+            numbers.round(p + (q - p) * x + (r - p) * y)
+        };
+        let card = [inside(), inside(), inside()];
+        let kind = if area(&card) < 1e-9 { 1 } else { dice.below(3) };
+        let used = &card[..3 - kind];
+        let replaced = match (numbers, kind) {
+            (Numbers::Single, 0) => overlay.replace(&tree, [card.map(|p| p.as_vec3())]),
+            (_, 0) => overlay.replace(&tree, [card]),
+            (_, 1) => overlay.replace_with(&tree, Shapes::NONE.with_lines([used])),
+            _ => overlay.replace_with(&tree, Shapes::NONE.with_points([card[0]])),
+        };
+        if replaced.is_err() || overlay.is_empty() {
+            continue;
+        }
+        let faces = overlay.faces();
+        let on_grid = used.iter().map(|p| faces.lattice().snap(*p));
+        let on_grid: Vec<[f64; 3]> = on_grid.collect();
+        if !are_on(faces, host, &on_grid) {
+            continue;
+        }
+        let leaves = |other: u32| {
+            other != host
+                && are_on(faces, other, &on_grid)
+                && !are_on(faces, other, faces.corners(host))
+        };
+        judged.shapes[kind] += 1;
+        judged.on_two_planes += usize::from((0..tree.faces().len() as u32).any(leaves));
+        for sign in [1.0, -1.0] {
+            let direction = sign * (turn * DVec3::Z + 0.3 * dice.point(-1.0, 1.0));
+            let order = overlay.order(&tree, Viewpoint::direction(direction)).expect("its tree");
+            let mut is_behind = false;
+            for shape in order {
+                is_behind |= matches!(shape, Shape::Fragment(f) if f.index() == fragment.index());
+                let is_own = shape.index() as usize >= tree.len();
+                assert!(is_behind || !is_own, "{numbers:?} {heuristic} {card:?} {polygons:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn shapes_within_a_polygon_of_a_wall_come_after_it() {
+    for numbers in [Numbers::Single, Numbers::Decimal(4), Numbers::Decimal(6)] {
+        let mut judged = Judged::default();
+        for seed in seeds(600) {
+            judge(&mut Dice(seed), numbers, &mut judged);
+        }
+        let Judged { shapes, on_two_planes } = judged;
+        assert!(shapes.iter().all(|&count| count > 500), "{shapes:?}");
+        assert!(on_two_planes > 60, "{on_two_planes}");
+    }
+}
