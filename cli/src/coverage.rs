@@ -1,5 +1,5 @@
 //! Pictures of pixels by exact coverage: each visible polygon contributes its colour by its share of the
-//! pixel's area. Where polygons are translucent, each convex cell of the picture contributes its blended colour.
+//! pixel's area. (Translucent polygons: see [`blended`](crate::blended).)
 //!
 //! Coverage comes from the sides of cells. In the pixels that a side crosses, it adds the area
 //! between the side and the right end of the row of pixels. The area counts as positive or negative,
@@ -7,13 +7,9 @@
 //! font rasterizers.) Time is proportional to the number of pixels of the cells.
 
 use std::collections::HashMap;
-use std::convert::Infallible;
 use std::ops::Range;
 
-use binspace::Error;
 use binspace::drawing::VisibilityMap;
-
-use crate::drawn::Style;
 
 /// The number of pixels that are summed up at once. Too large: more memory, 32 bytes each. Too small: more
 /// time, as all cells are visited for each part of a picture.
@@ -32,73 +28,17 @@ pub(crate) fn picture(
         let polygon = cell.polygon();
         colours.entry(polygon).or_insert_with(|| rgb(polygon).map(f64::from));
     }
-    let add = |band: &mut Band| {
-        for cell in map.cells() {
-            band.add(cell.corners(), colours[&cell.polygon()]);
-        }
-        Ok(())
-    };
-    let Ok(pixels) = pixels::<Infallible>(map.size(), background, add);
-    pixels
-}
-
-/// Like [`picture`], for translucent polygons.
-pub(crate) fn blended(
-    map: &VisibilityMap<'_>,
-    background: [u8; 3],
-    style: &Style<'_>,
-) -> Result<Vec<u8>, Error> {
-    let mut looks: HashMap<usize, Look> = HashMap::new();
-    for cell in map.cells() {
-        let polygon = cell.polygon();
-        looks.entry(polygon).or_insert_with(|| Look {
-            rgb: style.fill(polygon).map(f64::from),
-            opacity: f64::from(style.opacity(polygon)),
-        });
-    }
-    let nothing = Light { rgb: [0.0; 3], left: 1.0 };
-    let behind = |front: &Light, polygon: usize| {
-        let Look { rgb, opacity } = looks[&polygon];
-        let rgb = std::array::from_fn(|i| front.rgb[i] + front.left * opacity * rgb[i]);
-        Light { rgb, left: front.left * (1.0 - opacity) }
-    };
-    let add = |band: &mut Band| {
-        map.fold_cells(nothing, behind, |light, cell| {
-            let behind = background.map(|channel| light.left * f64::from(channel));
-            band.add(cell.corners(), std::array::from_fn(|i| light.rgb[i] + behind[i]));
-        })
-    };
-    pixels(map.size(), background, add)
-}
-
-#[derive(Clone, Copy)]
-struct Look {
-    rgb: [f64; 3],
-    opacity: f64,
-}
-
-/// The light of some polygons, and the share that they let through from behind.
-#[derive(Clone, Copy)]
-struct Light {
-    rgb: [f64; 3],
-    left: f64,
-}
-
-/// All pixels, row by row, where a function adds all areas to a part of the picture.
-fn pixels<E>(
-    size: [u32; 2],
-    background: [u8; 3],
-    add: impl Fn(&mut Band) -> Result<(), E>,
-) -> Result<Vec<u8>, E> {
-    let [width, height] = size.map(|side| side as usize);
+    let [width, height] = map.size().map(|side| side as usize);
     let rows = (AT_ONCE / width).clamp(1, height);
     let mut pixels = Vec::with_capacity(3 * width * height);
     for top in (0..height).step_by(rows) {
         let mut band = Band::new(background, width, top, rows.min(height - top));
-        add(&mut band)?;
+        for cell in map.cells() {
+            band.add(cell.corners(), colours[&cell.polygon()]);
+        }
         pixels.extend(band.pixels());
     }
-    Ok(pixels)
+    pixels
 }
 
 /// The pixels of an empty picture.

@@ -4,6 +4,7 @@
 
 mod args;
 mod backs;
+mod blended;
 pub mod camera;
 mod cells;
 pub mod colours;

@@ -236,7 +236,8 @@ impl VisibilityMap<'_> {
         self.primitives.lines.frame.rays.size()
     }
 
-    /// Returns all cells, in no particular order.
+    /// Returns all cells. Of two cells that overlap, the nearer comes first. (Only polygons behind translucent polygons
+    /// have cells that overlap others.)
     pub fn cells(&self) -> impl Iterator<Item = MapCell<'_>> + Clone {
         let cells = self.leaves.iter().flat_map(|leaf| &leaf.cells);
         cells

@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
 use super::lines::{HalfPlane, LineTable, Table};
-use super::map::{MapCell, VisibilityMap, each, finish_item, sort_by};
+use super::map::{VisibilityMap, each, finish_item, sort_by};
 use super::paths::Area;
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Leaf, VISITED, Visible};
@@ -37,8 +37,8 @@ impl VisibilityMap<'_> {
     /// If all polygons are opaque, each visible polygon has one region. Translucent polygons divide the
     /// polygons behind them: n overlapping polygons have up to O(n²) regions, with up to n polygons each. To
     /// avoid seams, fill each region with one blended colour, in a group whose areas are [added
-    /// up](super::VectorPicture::added_up). To blend pixels, use [`fold_cells`](Self::fold_cells), which needs
-    /// no lists of polygons.
+    /// up](super::VectorPicture::added_up). To blend pixels, blend the [cells](Self::cells), which come front to
+    /// back where they overlap.
     ///
     /// # Errors
     ///
@@ -52,61 +52,6 @@ impl VisibilityMap<'_> {
             regions.retain(|region| !is_small(region));
             Ok(regions)
         })
-    }
-
-    /// Divides the picture into convex cells, and calls `see` for each cell with a value that is folded over
-    /// the polygons that are visible in the cell, front to back. In each cell, the same polygons are visible
-    /// everywhere. `see` also receives the cell with its rearmost polygon. Cells do not overlap. Parts of the
-    /// picture without a visible polygon are in no cell.
-    ///
-    /// The value of no polygons is `nothing`. `behind` returns the value with one more polygon, given its
-    /// number. Cells share the values of polygons in front that cover them together. n overlapping polygons have
-    /// up to O(n²) cells and take up to O(n³) calls of `behind`.
-    ///
-    /// ```
-    /// use binspace::drawing::ViewOptions;
-    /// use binspace::view::Camera;
-    /// use binspace::{BspTree, glam::DVec3};
-    ///
-    /// let square = |x: f64, y: f64| [[x, y, 0.0], [x + 2.0, y, 0.0], [x + 2.0, y, 2.0], [x, y, 2.0]];
-    /// let tree = BspTree::build([square(0.0, 0.0), square(1.0, -1.0)])?;
-    /// let (direction, middle) = (DVec3::Y, DVec3::new(1.5, 0.0, 1.0));
-    /// let camera = Camera::parallel(direction, DVec3::Z, middle, 4.0, [80, 80])?;
-    /// let options = ViewOptions::DEFAULT.with_opacities(vec![0.5, 0.5]);
-    /// let map = tree.visibility(&camera, &options)?;
-    ///
-    /// // The light that the polygons stop, in pixels.
-    /// let mut stopped = 0.0;
-    /// let left = |left: &f64, _polygon| left * 0.5;
-    /// map.fold_cells(1.0, left, |left, cell| stopped += (1.0 - left) * cell.area())?;
-    /// assert!((stopped - 400.0 * (2.0 * 0.5 + 2.0 * 0.5 + 2.0 * 0.75)).abs() < 1e-6);
-    /// # Ok::<(), binspace::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    ///
-    /// If the operation was [cancelled](Self#progress).
-    pub fn fold_cells<T>(
-        &self,
-        nothing: T,
-        behind: impl Fn(&T, usize) -> T,
-        mut see: impl FnMut(&T, MapCell<'_>),
-    ) -> Result<(), Error> {
-        let mut values = vec![nothing];
-        let mut fold = |divided: &Divided| {
-            values.truncate(1);
-            for layer in &divided.layers[1..] {
-                let polygon = self.primitives.polygon(layer.item);
-                values.push(behind(&values[layer.before as usize], polygon));
-            }
-            for LayeredCell { cell, layer, .. } in &divided.cells {
-                let item = divided.layers[*layer as usize].item;
-                let polygon = self.primitives.polygon(item);
-                see(&values[*layer as usize], MapCell { polygon, cell });
-            }
-            Ok(())
-        };
-        self.reporter.watch(1, |watch| self.for_each_divided(None, watch, &mut fold))
     }
 
     /// The visible parts of polygons that lie one behind the other. Counts as one phase of the progress.
@@ -399,9 +344,6 @@ fn is_opaque(leaf: &Leaf, primitives: &Primitives<'_>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use std::cell::Cell as Counter;
-    use std::collections::BTreeMap;
-
     use glam::DVec3;
 
     use crate::drawing::{ViewOptions, VisibilityMap};
@@ -442,49 +384,42 @@ mod tests {
         (0..count).map(&mut square).collect()
     }
 
-    /// Cells are compared with regions by the area of each list of polygons.
+    /// At each point, the cells that contain it come front to back, and end at an opaque polygon.
     #[test]
-    fn folded_cells_have_the_polygons_and_the_areas_of_regions() {
+    fn cells_over_one_another_are_the_list_of_their_region() {
+        let is_inside = |outline: &[[f64; 2]], [x, y]: [f64; 2]| {
+            let next = outline.iter().cycle().skip(1);
+            let side = |([ax, ay], [bx, by]): (&[f64; 2], &[f64; 2])| {
+                (bx - ax) * (y - ay) - (by - ay) * (x - ax)
+            };
+            outline.iter().zip(next).all(|ends| side(ends) > 0.0)
+        };
+        let (mut deepest, mut compared) = (0, 0);
         for (count, opaque) in [(1, 2), (12, 5), (40, 1), (40, 7), (70, 1000)] {
             with_map(&scattered(count), opaque, |map| {
-                let mut areas: BTreeMap<Vec<usize>, f64> = BTreeMap::new();
-                let behind = |front: &Vec<usize>, polygon| [&front[..], &[polygon]].concat();
-                map.fold_cells(vec![], behind, |polygons, cell| {
-                    assert_eq!(polygons.last(), Some(&cell.polygon()));
-                    *areas.entry(polygons.clone()).or_default() += cell.area();
-                })
-                .unwrap();
-                let regions = map.regions().unwrap();
-                assert_eq!(regions.len(), areas.len());
-                for region in &regions {
-                    let area = areas[region.polygons()];
-                    assert!((region.area() - area).abs() < 1e-6, "{:?}", region.polygons());
+                let cells: Vec<(usize, Vec<[f64; 2]>)> =
+                    map.cells().map(|cell| (cell.polygon(), cell.corners().collect())).collect();
+                for region in map.regions().unwrap().iter().filter(|region| region.area() > 1.0) {
+                    // A point in a corner of the region that is convex.
+                    let outline = region.outlines().next().unwrap();
+                    let corner = |i: usize| outline[i % outline.len()];
+                    let Some(at) = (0..outline.len()).find_map(|i| {
+                        let [a, b, c] = [i, i + 1, i + 2].map(corner);
+                        let at = [0, 1].map(|k| b[k] + 1e-3 * (a[k] - b[k]) + 1e-3 * (c[k] - b[k]));
+                        let turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
+                        (turn > 0.1).then_some(at)
+                    }) else {
+                        continue;
+                    };
+                    let found = cells.iter().filter(|(_, outline)| is_inside(outline, at));
+                    let found: Vec<usize> = found.map(|(polygon, _)| *polygon).collect();
+                    assert_eq!(found, region.polygons(), "{count} {opaque} {at:?}");
+                    deepest = deepest.max(found.len());
+                    compared += 1;
                 }
             });
         }
-    }
-
-    /// Squares inside one another, each in front of the next smaller one.
-    #[test]
-    fn values_are_folded_once_however_many_polygons_are_in_front() {
-        let mut counts = Vec::new();
-        for count in [15, 30, 60_usize] {
-            let squares: Vec<Square> = (0..count)
-                .map(|k| square([0.0, 0.0, -0.01 * k as f64], 2.0 - 0.01 * k as f64, 0.4))
-                .collect();
-            let folded = Counter::new(0);
-            with_map(&squares, 1000, |map| {
-                let behind = |front: &usize, _| {
-                    folded.set(folded.get() + 1);
-                    front + 1
-                };
-                let mut deepest = 0;
-                map.fold_cells(0, behind, |&depth, _| deepest = deepest.max(depth)).unwrap();
-                assert_eq!(deepest, count);
-            });
-            counts.push(folded.get());
-        }
-        assert!(counts[1] < 5 * counts[0] / 2 && counts[2] < 5 * counts[1] / 2, "{counts:?}");
+        assert!(deepest > 30 && compared > 2000, "{deepest} {compared}");
     }
 
     #[test]

@@ -64,7 +64,7 @@ impl Listener {
 /// A query of a map: an answer as text, so that answers can be compared.
 type Question = (&'static str, fn(&VisibilityMap<'_>, &Overlay) -> Result<String, Error>);
 
-const QUESTIONS: [Question; 11] = [
+const QUESTIONS: [Question; 10] = [
     ("drawing", |map, _| Ok(format!("{:?}", map.drawing()?))),
     ("edges", |map, _| Ok(format!("{:?}", map.edges(Hidden::Keep)?))),
     ("edges in layers", |map, _| Ok(format!("{:?}", map.edges(Hidden::Count)?))),
@@ -75,12 +75,6 @@ const QUESTIONS: [Question; 11] = [
     ("lines in layers", |map, overlay| Ok(format!("{:?}", map.lines(overlay, Hidden::Count)?))),
     ("markers", |map, overlay| Ok(format!("{:?}", map.markers(overlay)?))),
     ("regions", |map, _| Ok(format!("{:?}", map.regions()?))),
-    ("folded cells", |map, _| {
-        let mut found = Vec::new();
-        let behind = |front: &usize, polygon| (31 * front + polygon) % 1_000_003;
-        map.fold_cells(0, behind, |value, cell| found.push((*value, cell.area())))?;
-        Ok(format!("{found:?}"))
-    }),
 ];
 
 /// Makes a map or a drawing, as text.

@@ -20,7 +20,7 @@ fn tiles(normal: DVec3) -> Vec<[DVec3; 4]> {
 #[test]
 fn fronts_are_exact_where_normals_of_f32_are_not() {
     let mut dice = Dice(41);
-    let (mut edge_on, mut misleading) = (0, 0);
+    let mut misleading = 0;
     for _ in 0..times(60) {
         let normal = dice.point(-0.5, 0.5).normalize();
         let tree = BspTree::build(tiles(normal)).unwrap();
@@ -49,8 +49,7 @@ fn fronts_are_exact_where_normals_of_f32_are_not() {
             let rounded = tree.fragment(0).normal().as_vec3().as_dvec3();
             let eye = way + normal * above;
             misleading += usize::from(rounded.dot(eye) * above < 0.0 && above.abs() > 2.0);
-            edge_on += 1;
         }
     }
-    assert!(edge_on == 720 && misleading > 50, "{misleading} of {edge_on}");
+    enough!(misleading > 50; "{misleading} views");
 }

@@ -25,7 +25,7 @@ use crate::progress::Progress;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
 use crate::terminal::{remark, say};
 use crate::upright::note_up;
-use crate::{camera, coverage, dxf, ink, png_file};
+use crate::{blended, camera, coverage, dxf, ink, png_file};
 
 /// The default side of the square, in pixels, that a polygon has to show in a vector picture.
 const MIN_SIZE: f64 = 0.01;
@@ -97,7 +97,11 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
             true => coverage::picture(map, background, |polygon| style.fill(polygon)),
             false => {
                 view.show(Some(Progress::share("drawing")));
-                coverage::blended(map, background, &style).map_err(about)?
+                blended::picture(map, background, &style, &|done, total| {
+                    if let Some(bar) = &*bar.lock().unwrap_or_else(PoisonError::into_inner) {
+                        bar.set(done, total);
+                    }
+                })
             }
         };
         let strokes = view.strokes(Some(map), edges, format).map_err(about)?;

@@ -1,0 +1,408 @@
+//! Pictures of translucent polygons by exact coverage: each pixel is divided into the parts in which the same polygons
+//! are visible, and each part contributes its blended colour by its area.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use binspace::drawing::VisibilityMap;
+use rayon::prelude::*;
+
+use crate::drawn::Style;
+
+/// The number of pixels that one thread blends at once. Too large: more memory, about 100 bytes each, and more where
+/// they are divided. Too small: more time, as all cells are visited for each part of a picture.
+const AT_ONCE: usize = 1 << 17;
+
+/// A pixel is divided into at most this many parts, and the colours of later cells are then blended by their areas in the
+/// pixel, as if these were independent. Too large: time where thousands of polygons meet in a pixel. Too small: seams
+/// where several polygons meet.
+const MOST_PARTS: usize = 256;
+
+/// Distances from a side, in pixels, that count as 0, and areas.
+const NEAR: f64 = 1e-9;
+/// A larger distance, in pixels, by which no corner of a cell is wrong.
+const COARSE: f64 = 1e-5;
+
+/// The pixels of a map, row by row, with the colours and opacities of the map's polygons. Calls a function after each
+/// part of the picture with the share of pixels done so far.
+///
+/// Colours are blended as sRGB numbers, as viewers of vector pictures do, not as amounts of light. Takes O(p · n) time
+/// for p pixels and n polygons that lie over one another, and O(p) memory.
+pub(crate) fn picture(
+    map: &VisibilityMap<'_>,
+    background: [u8; 3],
+    style: &Style<'_>,
+    report: &(impl Fn(usize, usize) + Sync),
+) -> Vec<u8> {
+    let mut looks: HashMap<usize, Look> = HashMap::new();
+    for cell in map.cells() {
+        let polygon = cell.polygon();
+        looks.entry(polygon).or_insert_with(|| Look {
+            rgb: style.fill(polygon).map(f64::from),
+            opacity: f64::from(style.opacity(polygon)),
+        });
+    }
+    let [width, height] = map.size().map(|side| side as usize);
+    let rows = (AT_ONCE / width).clamp(1, height);
+    let tops: Vec<usize> = (0..height).step_by(rows).collect();
+    let done = AtomicUsize::new(0);
+    let band = |&top: &usize| {
+        let rows = rows.min(height - top);
+        let mut band = Band::new(width, top, rows);
+        let mut outline = Outline::default();
+        // Of cells that overlap, the nearer comes first.
+        for cell in map.cells() {
+            outline.fill(cell.corners());
+            band.add(&outline, looks[&cell.polygon()]);
+        }
+        report(done.fetch_add(rows, Ordering::Relaxed) + rows, height);
+        band.pixels(background.map(f64::from))
+    };
+    tops.par_iter().flat_map_iter(band).collect()
+}
+
+#[derive(Clone, Copy)]
+struct Look {
+    rgb: [f64; 3],
+    opacity: f64,
+}
+
+/// The light of some polygons, and the share that they let through from behind.
+#[derive(Clone, Copy, Debug)]
+struct Light {
+    rgb: [f64; 3],
+    left: f64,
+}
+
+impl Light {
+    const NONE: Self = Self { rgb: [0.0; 3], left: 1.0 };
+
+    /// The light with one more polygon behind.
+    fn behind(self, Look { rgb, opacity }: Look) -> Self {
+        let rgb = std::array::from_fn(|i| self.rgb[i] + self.left * opacity * rgb[i]);
+        Self { rgb, left: self.left * (1.0 - opacity) }
+    }
+}
+
+/// A convex cell.
+#[derive(Default)]
+struct Outline {
+    corners: Vec<[f64; 2]>,
+    sides: Vec<Side>,
+}
+
+impl Outline {
+    fn fill(&mut self, corners: impl Iterator<Item = [f64; 2]>) {
+        let Self { corners: all, sides } = self;
+        all.clear();
+        all.extend(corners);
+        let turn = area(all).signum();
+        let next = all.iter().cycle().skip(1);
+        sides.clear();
+        sides.extend(all.iter().zip(next).map(|(&from, &to)| Side::new(from, to, turn)));
+        // Corners are rounded, so a side of almost no length may have any direction. Its neighbours bound the cell.
+        sides.retain(|side| all.iter().all(|&corner| side.distance(corner) >= -COARSE));
+    }
+}
+
+/// A line through a side of a cell.
+#[derive(Clone, Copy)]
+struct Side {
+    /// A point, and the unit vector into the cell.
+    from: [f64; 2],
+    inwards: [f64; 2],
+}
+
+impl Side {
+    fn new(from: [f64; 2], to: [f64; 2], turn: f64) -> Self {
+        let [x, y] = [0, 1].map(|i| (to[i] - from[i]) * turn);
+        let length = x.hypot(y);
+        Self { from, inwards: [-y / length, x / length] }
+    }
+
+    /// The distance of a point from the line, positive on the cell's side.
+    fn distance(&self, p: [f64; 2]) -> f64 {
+        (p[0] - self.from[0]) * self.inwards[0] + (p[1] - self.from[1]) * self.inwards[1]
+    }
+}
+
+/// A convex part of a pixel in which the same cells are visible everywhere.
+struct Part {
+    outline: Vec<[f64; 2]>,
+    light: Light,
+}
+
+/// The contents of a pixel.
+enum Pixel {
+    /// The same cells are visible everywhere.
+    Whole(Light),
+    Divided(Vec<Part>),
+    /// The mean light of more than [`MOST_PARTS`] parts.
+    Mixed(Light),
+}
+
+/// Some rows of a picture.
+struct Band {
+    width: usize,
+    top: usize,
+    pixels: Vec<Pixel>,
+}
+
+impl Band {
+    fn new(width: usize, top: usize, rows: usize) -> Self {
+        let pixels = (0..width * rows).map(|_| Pixel::Whole(Light::NONE)).collect();
+        Self { width, top, pixels }
+    }
+
+    /// Adds a convex cell behind all cells that were added before.
+    fn add(&mut self, outline: &Outline, look: Look) {
+        let corners = &*outline.corners;
+        let height = self.pixels.len() / self.width;
+        let y = corners.iter().map(|p| p[1] - self.top as f64);
+        let low = y.clone().fold(f64::INFINITY, f64::min).floor().clamp(0.0, height as f64);
+        let high = y.fold(f64::NEG_INFINITY, f64::max).ceil().clamp(0.0, height as f64);
+        for row in low as usize..high as usize {
+            let y = (self.top + row) as f64;
+            let Some([touched, covered]) = spans(corners, y) else { continue };
+            let columns = touched.map(|x| x.clamp(0.0, self.width as f64));
+            for column in columns[0].floor() as usize..columns[1].ceil() as usize {
+                let x = column as f64;
+                let pixel = &mut self.pixels[row * self.width + column];
+                if covered[0] <= x && x + 1.0 <= covered[1] {
+                    pixel.cover(look);
+                } else {
+                    pixel.add([x, y], &outline.sides, look);
+                }
+            }
+        }
+    }
+
+    fn pixels(self, background: [f64; 3]) -> impl Iterator<Item = u8> {
+        self.pixels.into_iter().flat_map(move |pixel| {
+            let Light { rgb, left } = pixel.light();
+            std::array::from_fn::<u8, 3, _>(|i| (rgb[i] + left * background[i]).round() as u8)
+        })
+    }
+}
+
+/// The range of x in which a convex outline has points between y and y + 1, and the range in which it has all of them.
+fn spans(corners: &[[f64; 2]], y: f64) -> Option<[[f64; 2]; 2]> {
+    const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+    let include = |range: &mut [f64; 2], x: f64| *range = [range[0].min(x), range[1].max(x)];
+    let (mut touched, mut crossed) = (NOTHING, [NOTHING; 2]);
+    for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        if (y..=y + 1.0).contains(&from[1]) {
+            include(&mut touched, from[0]);
+        }
+        for (line, crossed) in [y, y + 1.0].into_iter().zip(&mut crossed) {
+            if from[1].min(to[1]) <= line && line <= from[1].max(to[1]) {
+                let share =
+                    if from[1] == to[1] { 0.0 } else { (line - from[1]) / (to[1] - from[1]) };
+                include(crossed, from[0] + share * (to[0] - from[0]));
+                if from[1] == to[1] {
+                    include(crossed, to[0]);
+                }
+            }
+        }
+    }
+    for [low, high] in crossed {
+        if low <= high {
+            touched = [touched[0].min(low), touched[1].max(high)];
+        }
+    }
+    let [a, b] = crossed;
+    (touched[0] < touched[1]).then_some([touched, [a[0].max(b[0]), a[1].min(b[1])]])
+}
+
+impl Pixel {
+    /// Adds a cell that covers the whole pixel.
+    fn cover(&mut self, look: Look) {
+        match self {
+            Self::Whole(light) | Self::Mixed(light) => *light = light.behind(look),
+            Self::Divided(parts) => {
+                parts.iter_mut().for_each(|part| part.light = part.light.behind(look));
+            }
+        }
+    }
+
+    /// Adds a cell to the pixel with a corner at a position.
+    fn add(&mut self, [x, y]: [f64; 2], sides: &[Side], look: Look) {
+        let square = || vec![[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]];
+        let is_left = |part: &Part| part.light.left > 0.0;
+        let whole = match self {
+            Self::Whole(light) | Self::Mixed(light) => {
+                Some(Part { outline: square(), light: *light })
+            }
+            Self::Divided(_) => None,
+        };
+        if whole.as_ref().is_some_and(|whole| !is_left(whole)) {
+            return;
+        }
+        let mut parts = Vec::new();
+        let mut divide = |part: Part| match is_left(&part) {
+            true => part.divide(sides, look, &mut parts),
+            false => parts.push(part),
+        };
+        match (&mut *self, whole) {
+            (Self::Divided(all), _) => std::mem::take(all).into_iter().for_each(&mut divide),
+            (_, Some(whole)) => divide(whole),
+            _ => {}
+        }
+        let is_mixed = matches!(self, Self::Mixed(_)) || parts.len() > MOST_PARTS;
+        *self = Self::Divided(parts);
+        if is_mixed {
+            *self = Self::Mixed(self.light());
+        }
+    }
+
+    /// The mean light.
+    fn light(&self) -> Light {
+        match self {
+            Self::Whole(light) | Self::Mixed(light) => *light,
+            Self::Divided(parts) => {
+                let mut sum = Light { rgb: [0.0; 3], left: 0.0 };
+                let mut all = 0.0;
+                for Part { outline, light } in parts {
+                    let area = area(outline);
+                    all += area;
+                    (0..3).for_each(|i| sum.rgb[i] += area * light.rgb[i]);
+                    sum.left += area * light.left;
+                }
+                Light { rgb: sum.rgb.map(|channel| channel / all), left: sum.left / all }
+            }
+        }
+    }
+}
+
+impl Part {
+    /// Divides the part by a convex cell, which is behind. The part in the cell is last.
+    fn divide(self, sides: &[Side], look: Look, parts: &mut Vec<Self>) {
+        let Self { mut outline, light } = self;
+        // Most parts are outside one side.
+        if sides.iter().any(|side| outline.iter().all(|&p| side.distance(p) <= NEAR)) {
+            parts.push(Self { outline, light });
+            return;
+        }
+        for side in sides {
+            if outline.iter().all(|&p| side.distance(p) >= -NEAR) {
+                continue;
+            }
+            let outside = half(&outline, |p| -side.distance(p));
+            if area(&outside).abs() > NEAR {
+                parts.push(Self { outline: outside, light });
+            }
+            outline = half(&outline, |p| side.distance(p));
+        }
+        if area(&outline).abs() > NEAR {
+            parts.push(Self { outline, light: light.behind(look) });
+        }
+    }
+}
+
+/// The part of a convex outline on the positive side of a line.
+fn half(outline: &[[f64; 2]], distance: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
+    let mut kept = Vec::with_capacity(outline.len() + 1);
+    for (from, to) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+        let (before, after) = (distance(*from), distance(*to));
+        if before >= 0.0 {
+            kept.push(*from);
+        }
+        if (before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0) {
+            let share = before / (before - after);
+            kept.push([0, 1].map(|i| from[i] + share * (to[i] - from[i])));
+        }
+    }
+    kept
+}
+
+/// The area of an outline: positive if it turns from the x axis towards the y axis.
+fn area(outline: &[[f64; 2]]) -> f64 {
+    let Some(origin) = outline.first() else { return 0.0 };
+    let arm = |p: &[f64; 2]| [p[0] - origin[0], p[1] - origin[1]];
+    let halves = outline.windows(2).map(|ends| {
+        let ([ax, ay], [bx, by]) = (arm(&ends[0]), arm(&ends[1]));
+        0.5 * (ax * by - ay * bx)
+    });
+    halves.sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RED: Look = Look { rgb: [200.0, 0.0, 0.0], opacity: 0.5 };
+    const BLUE: Look = Look { rgb: [0.0, 0.0, 100.0], opacity: 1.0 };
+
+    fn blended(width: usize, rows: usize, cells: &[(Vec<[f64; 2]>, Look)]) -> Vec<Light> {
+        let mut band = Band::new(width, 0, rows);
+        let mut outline = Outline::default();
+        for (corners, look) in cells {
+            outline.fill(corners.iter().copied());
+            band.add(&outline, *look);
+        }
+        band.pixels.iter().map(Pixel::light).collect()
+    }
+
+    fn assert_light(light: Light, rgb: [f64; 3], left: f64) {
+        let off =
+            (0..3).map(|i| (light.rgb[i] - rgb[i]).abs()).fold((light.left - left).abs(), f64::max);
+        assert!(off < 1e-6, "{light:?}, not {rgb:?} and {left}");
+    }
+
+    #[test]
+    fn cells_side_by_side_have_no_seam() {
+        let fan = |k: u32| {
+            let at = |k: u32| {
+                let (sin, cos) = (f64::from(k) / 9.0 * std::f64::consts::TAU).sin_cos();
+                [1.3 + 9.0 * cos, 1.6 + 9.0 * sin]
+            };
+            (vec![[1.3, 1.6], at(k), at(k + 1)], RED)
+        };
+        let fan: Vec<_> = (0..9).map(fan).collect();
+        let under = (vec![[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]], BLUE);
+        for light in blended(3, 3, &fan) {
+            assert_light(light, [100.0, 0.0, 0.0], 0.5);
+        }
+        for light in blended(3, 3, &[&fan[..], &[under]].concat()) {
+            assert_light(light, [100.0, 0.0, 50.0], 0.0);
+        }
+    }
+
+    #[test]
+    fn each_part_of_a_pixel_is_blended_by_its_area() {
+        // The left half in front, the lower half behind.
+        let left = (vec![[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [0.0, 1.0]], RED);
+        let low = (vec![[0.0, 0.5], [1.0, 0.5], [1.0, 1.0], [0.0, 1.0]], BLUE);
+        let both = blended(1, 1, &[left.clone(), low.clone()]);
+        assert_light(both[0], [50.0, 0.0, 37.5], 0.375);
+        // In the other order, the front hides a half of the other.
+        let both = blended(1, 1, &[low, left]);
+        assert_light(both[0], [25.0, 0.0, 50.0], 0.375);
+    }
+
+    /// A side of almost no length, with a direction that rounding made.
+    #[test]
+    fn a_side_of_almost_no_length_does_not_cut_the_cell() {
+        let cell = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 1.5], [4.0 - 1e-12, 1.5 - 1e-12], [0.0, 1.5]];
+        let lights = blended(5, 2, &[(cell, BLUE)]);
+        for (i, light) in lights.into_iter().enumerate() {
+            let left = if i % 5 == 4 { 1.0 } else { [0.0, 0.5][i / 5] };
+            assert_light(light, [0.0, 0.0, 100.0 * (1.0 - left)], left);
+        }
+    }
+
+    /// More cells meet in a pixel than the pixel has parts.
+    #[test]
+    fn a_pixel_of_many_cells_is_blended_by_shares() {
+        let wedge = |k: u32| {
+            let at = |k: u32| {
+                let (sin, cos) = (f64::from(k) / 2000.0 * std::f64::consts::TAU).sin_cos();
+                [0.4 + 3.0 * cos, 0.6 + 3.0 * sin]
+            };
+            (vec![[0.4, 0.6], at(k), at(k + 1)], BLUE)
+        };
+        let lights = blended(1, 1, &(0..2000).map(wedge).collect::<Vec<_>>());
+        let Light { rgb, left } = lights[0];
+        assert!((rgb[2] - 100.0 * (1.0 - left)).abs() < 1e-6 && left < 0.5, "{:?}", lights[0]);
+    }
+}
