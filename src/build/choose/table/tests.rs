@@ -6,9 +6,12 @@ use super::super::cost::{Cost, Counts, work};
 use super::super::set::Set;
 use super::super::tests::{Fixture, grid, triangles};
 use super::{Mask, Part, Sides, Table};
+use crate::build::BuildOptions;
+use crate::build::choose::ChooseContext;
 use crate::build::choose::tuning::Tuning;
 use crate::build::piece::{Piece, Splitter};
 use crate::exact::{PlaneId, Side};
+use crate::progress::Watch;
 use crate::random::SplitMix64;
 
 /// Sets of every kind: apart, crossing, connected, and so flat that only integers decide.
@@ -170,6 +173,33 @@ fn a_piece_that_many_planes_cut_is_used_early() {
         table.pieces[best].face == 40
     };
     assert_eq!([0.0, 4.0].map(wall), [false, true]);
+}
+
+/// A square on the axis plane between two groups, and another square that is coplanar with the first: its distance from
+/// the axis plane is more than the tolerance, but less than twice the tolerance.
+#[test]
+fn a_free_plane_does_not_separate_coplanar_pieces() {
+    const TOLERANCE: f64 = 0.04;
+    let square = |x: f64, size: f64, middle: [f64; 2]| {
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[a, b]| DVec3::new(x, middle[0] + size * a, middle[1] + size * b))
+    };
+    for (second, overlaps, is_free) in
+        [(1.8, false, true), (1.8, true, false), (0.8, true, true), (3.6, true, true)]
+    {
+        let large = square(0.9 * TOLERANCE, 1.0, [0.0; 2]);
+        let second = square(second * TOLERANCE, 0.5, if overlaps { [0.25; 2] } else { [3.0; 2] });
+        let group = |x: f64| square(x, 1.5, [0.5; 2]);
+        let all = [group(-8.0), group(-6.0), group(-4.0), group(0.0), large, second];
+        let fixture = Fixture::new(&all, TOLERANCE);
+        let set = fixture.set();
+        let (mut table, tuning) = (Table::default(), Tuning::DEFAULT);
+        let part = table.fill(&set, &tuning);
+        let (options, watch) = (BuildOptions::DEFAULT, Watch::default());
+        let rules = ChooseContext::new(&options, &tuning, &watch);
+        let gap = table.gap(&rules, &set, &part).unwrap();
+        assert_eq!(gap.is_some(), is_free, "{overlaps}");
+    }
 }
 
 #[test]
