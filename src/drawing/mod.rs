@@ -40,6 +40,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod batching;
 mod cell;
 mod crossings;
 mod edges;
@@ -53,7 +54,6 @@ mod paths;
 mod pdf;
 mod pen;
 mod picture;
-mod prepress;
 mod primitives;
 mod quadtree;
 mod regions;
@@ -61,6 +61,7 @@ mod segments;
 mod svg;
 mod tikz;
 mod translucent;
+mod trapping;
 
 pub use edges::{EdgeKind, EdgeRun};
 pub use map::{Hidden, MapCell, ViewOptions, VisibilityMap, VisiblePolygon};
