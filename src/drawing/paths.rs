@@ -45,6 +45,13 @@ pub(super) struct Record {
     pub(super) outlines: Range<u32>,
 }
 
+impl Record {
+    /// The record of the same path with other outlines.
+    pub(super) fn with_outlines(&self, outlines: Range<u32>) -> Self {
+        Self { outlines, ..*self }
+    }
+}
+
 /// The filled area of a polygon, or of a part of a polygon, in a [`Drawing`].
 #[derive(Clone, Copy, Debug)]
 pub struct Path<'d> {
@@ -160,7 +167,7 @@ impl<'d> Path<'d> {
     }
 
     /// The range of corners of each outline.
-    fn ranges(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'d> {
+    pub(super) fn ranges(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'d> {
         let Drawing { outlines, corners, .. } = self.drawing;
         self.record.outlines.clone().map(move |outline| {
             let start = outlines[outline as usize] as usize;

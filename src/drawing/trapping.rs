@@ -2,10 +2,13 @@
 
 use std::ops::{ControlFlow, Range};
 
+use smallvec::SmallVec;
+
 use super::map::{Reporter, finish_item};
 use super::paths::{Drawing, Path};
-use crate::Error;
+use crate::memory::place;
 use crate::progress::{Progress, Watch};
+use crate::{Error, parallel_map};
 
 type Point = [f64; 2];
 
@@ -36,7 +39,7 @@ const MOST_CELLS: usize = 1 << 20;
 /// large: many sides in a cell where small polygons are in a small part of the picture.
 const LARGEST_CELL: f64 = 4.0;
 
-type Outline = Vec<Point>;
+type Outline = SmallVec<[Point; 8]>;
 type Segment = [Point; 2];
 
 impl Drawing {
@@ -50,7 +53,8 @@ impl Drawing {
     /// returns whether the polygon with a given number is opaque. A side of an outline is extended if
     ///
     /// - its own polygon is opaque;
-    /// - a polygon that is painted later touches the side, and is opaque;
+    /// - a polygon that is painted later touches the side, and is opaque; if two polygons have the same side, only
+    ///   these two count;
     /// - the outline of that polygon is convex or has at most 24 corners; and
     /// - the area of the extension is at least a tenth of a square pixel.
     ///
@@ -61,7 +65,7 @@ impl Drawing {
     /// O(n log n) for n corners, unless many sides are close to one another.
     #[must_use]
     pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {
-        // Only a callback cancels.
+        // Only a callback cancels. A drawing of too many corners stays as it is.
         self.trap(&Watch::default(), is_opaque).unwrap_or_else(|_| self.clone())
     }
 
@@ -70,7 +74,7 @@ impl Drawing {
     ///
     /// # Errors
     ///
-    /// If the callback cancels.
+    /// If the callback cancels, or if there would be more than 2³² corners.
     pub fn trapped_with_progress(
         &self,
         is_opaque: impl Fn(usize) -> bool,
@@ -80,65 +84,225 @@ impl Drawing {
     }
 
     fn trap(&self, watch: &Watch<'_>, is_opaque: impl Fn(usize) -> bool) -> Result<Self, Error> {
-        let (mut parts, mut placed) = (Vec::new(), Vec::new());
-        for (number, path) in self.paths().enumerate() {
-            watch.work(path.outlines().map(<[Point]>::len).sum())?;
-            if !is_opaque(path.polygon()) {
-                continue;
-            }
-            for (part, sides) in parts_of(path) {
-                if largest_strip(&part) < SMALLEST {
-                    continue;
-                }
-                let side = |ends| PlacedSide { path: number, part: parts.len(), ends };
-                placed.extend(sides.into_iter().map(side));
-                parts.push(part);
-            }
+        let sides = PlacedSides::of(self, watch, is_opaque)?;
+        let grid = Grid::new(self.size, &sides, watch)?;
+        let trapper = Trapper { drawing: self, sides, grid };
+        let paths: Vec<Path<'_>> = self.paths().collect();
+        let chunks = (0..).step_by(PATHS_AT_ONCE).zip(paths.chunks(PATHS_AT_ONCE));
+        let extended = |(first, paths)| trapper.extended(first, paths, watch);
+        let mut trapped = Self::empty(self.size);
+        for part in parallel_map::map(chunks.collect(), extended)? {
+            trapped.append(part)?;
         }
-        let grid = Grid::new(self.size, self.corners.len(), placed, watch)?;
-        let mut trapped = Self { overlaid: self.overlaid.clone(), ..Self::empty(self.size) };
-        let (mut near, mut ring) = (Vec::new(), Outline::new());
-        for (number, path) in self.paths().enumerate() {
-            let start = trapped.outlines.len() as u32;
-            let turn = path.outlines().map(double_area).sum::<f64>().signum();
-            let reaches = is_opaque(path.polygon());
-            for (outline, edges) in path.outlines().zip(path.edges()) {
-                ring.clear();
-                trapped.outlines.push(trapped.corners.len() as u32);
-                for (ends, &edge) in sides(outline).zip(edges) {
-                    ring.push(ends[0]);
-                    let start = ring.len();
-                    let frame = SideFrame::outside_of(ends, turn).filter(|_| reaches);
-                    // Strips at a shorter side are too small.
-                    if let Some(frame) = frame.filter(|frame| frame.length * WIDTH >= SMALLEST) {
-                        grid.find_near(ends, number, &mut near, watch)?;
-                        extend(&mut ring, &frame, &near, &parts);
-                    }
-                    // An extended side no longer lies on its edge.
-                    trapped.edges.push(edge.filter(|_| ring.len() == start));
-                    trapped.edges.resize(trapped.corners.len() + ring.len(), None);
-                }
-                trapped.corners.extend_from_slice(&ring);
-            }
-            let mut record = path.record.clone();
-            record.outlines = start..trapped.outlines.len() as u32;
-            trapped.paths.push(record);
-            finish_item(watch, number, self.paths.len());
-        }
-        // Corners have numbers of 32 bits.
-        Ok(if trapped.corners.len() > u32::MAX as usize { self.clone() } else { trapped })
+        trapped.overlaid.clone_from(&self.overlaid);
+        Ok(trapped)
     }
 }
 
-/// Extends a ring at its last side under the neighbours whose sides are near.
-fn extend(ring: &mut Outline, frame: &SideFrame, near: &[PlacedSide], parts: &[Outline]) {
-    let mut strips: Vec<Outline> = Vec::new();
-    for sides in near.chunk_by(|a, b| a.part == b.part) {
-        strips.extend(strip(frame, &parts[sides[0].part]));
+/// The number of paths that one thread extends at once. Too small: time to collect the results. Too large: threads wait
+/// for one another.
+const PATHS_AT_ONCE: usize = 256;
+
+/// A drawing whose paths are extended.
+struct Trapper<'d> {
+    drawing: &'d Drawing,
+    sides: PlacedSides<'d>,
+    grid: Grid,
+}
+
+impl Trapper<'_> {
+    /// Some paths of the drawing, extended, given the number of the first.
+    fn extended(
+        &self,
+        first: usize,
+        paths: &[Path<'_>],
+        watch: &Watch<'_>,
+    ) -> Result<Drawing, Error> {
+        let Self { drawing, sides, .. } = self;
+        let mut trapped = Drawing::empty(drawing.size);
+        let (mut near, mut strips) = (Vec::new(), Vec::new());
+        for (number, path) in (first..).zip(paths) {
+            watch.work(path.outlines().map(<[Point]>::len).sum())?;
+            let start = place(trapped.outlines.len())?;
+            let turn = path.outlines().map(double_area).sum::<f64>().signum();
+            for outline in path.ranges() {
+                trapped.outlines.push(place(trapped.corners.len())?);
+                for side in outline {
+                    let ends = sides.ends(side);
+                    trapped.corners.push(ends[0]);
+                    trapped.edges.push(drawing.edges[side]);
+                    // Strips at a shorter side are too small.
+                    let frame = SideFrame::outside_of(ends, turn)
+                        .filter(|frame| frame.length * WIDTH >= SMALLEST);
+                    let Some(frame) = frame.filter(|_| sides.is_opaque[number]) else { continue };
+                    self.find_strips(side, number, &frame, &mut near, &mut strips, watch)?;
+                    if strips.is_empty() {
+                        continue;
+                    }
+                    // An extended side no longer lies on its edge.
+                    trapped.edges.pop();
+                    // A strip may begin and end at the side's corners.
+                    let within = NEAR..=frame.length - NEAR;
+                    let is_new = |p: &&Point| p[1] > 0.0 || within.contains(&p[0]);
+                    let added = strips.iter().flatten().filter(is_new);
+                    trapped.corners.extend(added.map(|&point| frame.world(point)));
+                    trapped.edges.resize(trapped.corners.len(), None);
+                }
+            }
+            let outlines = start..place(trapped.outlines.len())?;
+            trapped.paths.push(path.record.with_outlines(outlines));
+            finish_item(watch, number, drawing.paths.len());
+        }
+        Ok(trapped)
     }
-    // In local coordinates, each from its lower to its upper end along the side.
-    strips.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
-    ring.extend(strips.iter().flatten().map(|&point| frame.world(point)));
+
+    /// Finds the strips under the neighbours of a side of a path, in the order along the side.
+    fn find_strips(
+        &self,
+        side: usize,
+        path: usize,
+        frame: &SideFrame,
+        near: &mut Vec<u32>,
+        strips: &mut Vec<Outline>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let Self { sides, grid, .. } = self;
+        near.clear();
+        strips.clear();
+        match sides.twins[side] {
+            NONE => grid.find_near(sides, side, path, near, watch)?,
+            twin if sides.paths[twin as usize] as usize > path => near.push(twin),
+            _ => {}
+        }
+        let part = |side: u32| sides.parts_of[side as usize];
+        strips.extend(near.chunk_by(|&a, &b| part(a) == part(b)).filter_map(|near| {
+            let common = near.iter().map(|&side| sides.ends(side as usize));
+            strip(frame, sides.part(near[0] as usize)?, common)
+        }));
+        strips.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
+        Ok(())
+    }
+}
+
+/// No number.
+const NONE: u32 = u32::MAX;
+/// Corners that are equal in these units, a share of a pixel, are one corner of two paths: far more than the rounding of
+/// corners, and far less than [`NEAR`].
+const UNITS: f64 = 4096.0;
+
+/// The sides of a drawing's outlines. Each is numbered by the corner at which it begins.
+struct PlacedSides<'d> {
+    drawing: &'d Drawing,
+    /// Whether each path is opaque.
+    is_opaque: Vec<bool>,
+    /// The path of each side, and the next corner of its outline.
+    paths: Vec<u32>,
+    next: Vec<u32>,
+    /// The side of another path that has the same ends and lies on the other side of the line, if it is the only one.
+    twins: Vec<u32>,
+    /// The convex part, in its opaque path, that each side bounds, if a strip in the part may be large enough.
+    parts_of: Vec<u32>,
+    /// The corners of the parts, and the start of each.
+    parts: Vec<u32>,
+    corners: Vec<Point>,
+}
+
+impl<'d> PlacedSides<'d> {
+    fn of(
+        drawing: &'d Drawing,
+        watch: &Watch<'_>,
+        is_opaque: impl Fn(usize) -> bool,
+    ) -> Result<Self, Error> {
+        let n = drawing.corners.len();
+        let is_opaque = drawing.paths().map(|path| is_opaque(path.polygon())).collect();
+        let none = vec![NONE; n];
+        let (paths, next) = (none.clone(), none.clone());
+        let mut all = Self {
+            drawing,
+            is_opaque,
+            paths,
+            next,
+            twins: none.clone(),
+            parts_of: none,
+            parts: vec![0],
+            corners: vec![],
+        };
+        let mut keys: Vec<([u64; 2], u32)> = Vec::with_capacity(n);
+        for (number, path) in drawing.paths().enumerate() {
+            watch.work(path.outlines().map(<[Point]>::len).sum())?;
+            for sides in path.ranges() {
+                for side in sides.clone() {
+                    let next = if side + 1 == sides.end { sides.start } else { side + 1 };
+                    all.paths[side] = number as u32;
+                    all.next[side] = next as u32;
+                    let [from, to] = [side, next].map(|corner| key(drawing.corners[corner]));
+                    if from != to {
+                        keys.push(([from.min(to), from.max(to)], side as u32));
+                    }
+                }
+            }
+            if all.is_opaque[number] {
+                all.add_parts(path);
+            }
+        }
+        watch.work(keys.len())?;
+        keys.sort_unstable();
+        for same in keys.chunk_by(|(a, _), (b, _)| a == b) {
+            let &[(_, a), (_, b)] = same else { continue };
+            let [from, to] = [a, b].map(|side| key(all.ends(side as usize)[0]));
+            if from != to && all.paths[a as usize] != all.paths[b as usize] {
+                all.twins[a as usize] = b;
+                all.twins[b as usize] = a;
+            }
+        }
+        Ok(all)
+    }
+
+    /// The ends of a side.
+    fn ends(&self, side: usize) -> Segment {
+        [side, self.next[side] as usize].map(|corner| self.drawing.corners[corner])
+    }
+
+    /// The convex part that a side bounds.
+    fn part(&self, side: usize) -> Option<&[Point]> {
+        let part = self.parts_of[side];
+        let range =
+            (part != NONE).then(|| self.parts[part as usize]..self.parts[part as usize + 1])?;
+        Some(&self.corners[range.start as usize..range.end as usize])
+    }
+
+    /// Adds convex parts inside a path. A convex path is its only part. Any other path has a triangle on each of its
+    /// sides.
+    fn add_parts(&mut self, path: Path<'_>) {
+        let mut add = |sides: Range<usize>, corners: &[Point]| {
+            if largest_strip(corners) >= SMALLEST {
+                let part = self.parts.len() as u32 - 1;
+                self.corners.extend_from_slice(corners);
+                self.parts.push(self.corners.len() as u32);
+                self.parts_of[sides].fill(part);
+            }
+        };
+        if path.record.outlines.len() == 1 && path.outlines().all(is_convex) {
+            path.ranges().zip(path.outlines()).for_each(|(sides, outline)| add(sides, outline));
+            return;
+        }
+        let all: Vec<Segment> = path.outlines().flat_map(sides).collect();
+        if all.len() > MOST_CORNERS {
+            return;
+        }
+        let turn = path.outlines().map(double_area).sum::<f64>().signum();
+        for (number, &side) in path.ranges().flatten().zip(&all) {
+            if let Some(triangle) = triangle_on(side, turn, &all) {
+                add(number..number + 1, &triangle);
+            }
+        }
+    }
+}
+
+/// Coordinates in [`UNITS`], as a key. Round coordinates, which are frequent, are in the middle of a unit.
+fn key(p: Point) -> u64 {
+    let [x, y] = p.map(|c| u64::from((c * UNITS + 0.5) as i32 as u32));
+    x << 32 | y
 }
 
 fn sides(outline: &[Point]) -> impl Iterator<Item = Segment> {
@@ -153,7 +317,8 @@ fn largest_strip(neighbour: &[Point]) -> f64 {
 }
 
 fn length([a, b]: Segment) -> f64 {
-    (b[0] - a[0]).hypot(b[1] - a[1])
+    let [x, y] = [b[0] - a[0], b[1] - a[1]];
+    (x * x + y * y).sqrt()
 }
 
 fn double_area(outline: &[Point]) -> f64 {
@@ -164,72 +329,62 @@ fn cross(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// A side of an outline, the number of the outline's path, and the number of the convex part that the side
-/// bounds.
-#[derive(Clone, Copy)]
-struct PlacedSide {
-    path: usize,
-    part: usize,
-    ends: Segment,
-}
-
-/// Square cells of a picture, each with the sides that pass through it.
+/// Square cells of a picture, each with the sides without a twin that pass through it.
 struct Grid {
     cell: f64,
     columns: usize,
     rows: usize,
-    sides: Vec<PlacedSide>,
     /// The number of a cell and of a side that passes through the cell; sorted.
-    entries: Vec<(usize, u32)>,
+    entries: Vec<(u32, u32)>,
 }
 
 impl Grid {
-    /// A grid of the given sides. The whole picture has at most about `most` cells, unless the sides are much
-    /// shorter than those cells: then many sides may be in a small part of the picture.
-    fn new(
-        size: [u32; 2],
-        most: usize,
-        sides: Vec<PlacedSide>,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
+    /// A grid of the sides that bound a part and have no twin. The whole picture has at most about as many cells as
+    /// there are such sides, unless the sides are much shorter than those cells: then many sides may be in a small part
+    /// of the picture.
+    fn new(size: [u32; 2], sides: &PlacedSides<'_>, watch: &Watch<'_>) -> Result<Self, Error> {
+        let all = (0..sides.twins.len())
+            .filter(|&side| sides.twins[side] == NONE && sides.parts_of[side] != NONE);
         let [width, height] = size.map(f64::from);
-        let cell = (width * height / most.clamp(1, MOST_CELLS) as f64).sqrt();
-        let length: f64 = sides.iter().map(|side| length(side.ends)).sum();
-        let largest = LARGEST_CELL * length / sides.len().max(1) as f64;
+        let (count, sum) = all
+            .clone()
+            .fold((0, 0.0), |(count, sum), side| (count + 1, sum + length(sides.ends(side))));
+        let cell = (width * height / count.clamp(1, MOST_CELLS) as f64).sqrt();
+        let largest = LARGEST_CELL * sum / count.max(1) as f64;
         let cell = cell.min(largest).max(1.0);
         let [columns, rows] = [width, height].map(|side| (side / cell) as usize + 1);
-        let mut grid = Self { cell, columns, rows, sides, entries: vec![] };
-        for (number, side) in (0..).zip(&grid.sides) {
-            for cells in grid.passed(side.ends, NEAR) {
+        let mut grid = Self { cell, columns, rows, entries: vec![] };
+        for side in all {
+            for cells in grid.passed(sides.ends(side), NEAR) {
                 watch.work(cells.len())?;
-                grid.entries.extend(cells.map(|cell| (cell, number)));
+                grid.entries.extend(cells.map(|cell| (cell as u32, side as u32)));
             }
         }
         grid.entries.sort_unstable();
         Ok(grid)
     }
 
-    /// Finds the sides of later paths near a side, sorted by the numbers of their convex parts.
+    /// Finds the sides of later paths near a side, those of one convex part after another.
     fn find_near(
         &self,
-        ends: Segment,
+        sides: &PlacedSides<'_>,
+        side: usize,
         path: usize,
-        found: &mut Vec<PlacedSide>,
+        found: &mut Vec<u32>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         found.clear();
-        let mut numbers: Vec<u32> = Vec::new();
-        for cells in self.passed(ends, WIDTH) {
-            let first = self.entries.partition_point(|&(cell, _)| cell < cells.start);
-            let here = self.entries[first..].iter().take_while(|&&(cell, _)| cell < cells.end);
-            let before = numbers.len();
-            numbers.extend(here.map(|&(_, number)| number));
-            watch.work(1 + numbers.len() - before)?;
+        for cells in self.passed(sides.ends(side), WIDTH) {
+            let first = self.entries.partition_point(|&(cell, _)| (cell as usize) < cells.start);
+            let here =
+                self.entries[first..].iter().take_while(|&&(cell, _)| (cell as usize) < cells.end);
+            let before = found.len();
+            found.extend(here.map(|&(_, number)| number));
+            watch.work(1 + found.len() - before)?;
         }
-        numbers.retain(|&number| self.sides[number as usize].path > path);
-        numbers.sort_unstable();
-        numbers.dedup();
-        found.extend(numbers.iter().map(|&number| self.sides[number as usize]));
+        found.retain(|&number| sides.paths[number as usize] > path as u32);
+        found.sort_unstable();
+        found.dedup();
         Ok(())
     }
 
@@ -260,24 +415,6 @@ impl Grid {
             row * columns + from..row * columns + to + 1
         })
     }
-}
-
-/// Convex parts inside a path, each with the sides of the path that bound it. A convex path is its only part.
-/// Any other path has a triangle on each of its sides.
-fn parts_of(path: Path<'_>) -> Vec<(Outline, Vec<Segment>)> {
-    let outlines: Vec<&[Point]> = path.outlines().collect();
-    if let [only] = outlines[..]
-        && is_convex(only)
-    {
-        return vec![(only.to_vec(), sides(only).collect())];
-    }
-    let all: Vec<Segment> = outlines.iter().flat_map(|outline| sides(outline)).collect();
-    if all.len() > MOST_CORNERS {
-        return vec![];
-    }
-    let turn = outlines.iter().map(|outline| double_area(outline)).sum::<f64>().signum();
-    let triangles = all.iter().filter_map(|&side| triangle_on(side, turn, &all));
-    triangles.map(|triangle| (triangle.to_vec(), vec![[triangle[0], triangle[1]]])).collect()
 }
 
 fn is_convex(outline: &[Point]) -> bool {
@@ -333,7 +470,7 @@ impl SideFrame {
     /// The frame of a side of an outline that turns in the given sense; `None` if the side has no length.
     fn outside_of([start, end]: Segment, turn: f64) -> Option<Self> {
         let step = [end[0] - start[0], end[1] - start[1]];
-        let length = step[0].hypot(step[1]);
+        let length = length([start, end]);
         let along = step.map(|c| c / length);
         let out = [turn * along[1], -turn * along[0]];
         (length > NEAR).then_some(Self { start, length, along, out })
@@ -360,13 +497,28 @@ impl SideFrame {
         let is_along = [low, high].map(out).iter().all(|out| (-WIDTH..=NEAR).contains(out));
         is_along.then_some([low, high])
     }
+
+    /// The same range for a side of a neighbour that turns in a given sense, if the neighbour lies beyond that side.
+    fn common(&self, ends: Segment, turn: f64) -> Option<[f64; 2]> {
+        let is_outside = turn * (ends[1][0] - ends[0][0]) > 0.0;
+        self.along(ends).filter(|_| is_outside)
+    }
 }
 
-/// The extension of a path at a side into a convex neighbour, along the common edges of both. The corners of
-/// the extension are in local coordinates, from the lower to the upper end along the side.
-fn strip(frame: &SideFrame, neighbour: &[Point]) -> Option<Outline> {
+/// The extension of a path at a side into a convex neighbour, along those of the given sides of the neighbour that are
+/// common edges of both. The corners of the extension are in local coordinates, from the lower to the upper end along the
+/// side.
+fn strip(
+    frame: &SideFrame,
+    neighbour: &[Point],
+    near: impl Iterator<Item = Segment>,
+) -> Option<Outline> {
     let corners: Outline = neighbour.iter().map(|&corner| frame.local(corner)).collect();
-    let strip = band(frame, &corners)?;
+    let turn = double_area(&corners).signum();
+    let near = near.map(|ends| ends.map(|end| frame.local(end)));
+    let common = near.filter_map(|ends| frame.common(ends, turn));
+    let hull = common.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    let strip = band(frame, &corners, hull)?;
     if 0.5 * double_area(&strip).abs() < SMALLEST {
         return None;
     }
@@ -392,25 +544,20 @@ fn triangle(neighbour: &[Point], strip: &[Point]) -> Option<Outline> {
         0.5 * length * apex[1]
     };
     let is_enough = covered >= ENOUGH * 0.5 * double_area(strip).abs();
-    is_enough.then(|| vec![low, apex, high])
+    is_enough.then(|| [low, apex, high].into_iter().collect())
 }
 
-/// A strip along the common edges, clipped to the neighbour, which is given in local coordinates.
-fn band(frame: &SideFrame, corners: &[Point]) -> Option<Outline> {
+/// A strip along a range of the side, clipped to the neighbour, which is given in local coordinates.
+fn band(frame: &SideFrame, corners: &[Point], [low, high]: [f64; 2]) -> Option<Outline> {
     let turn = double_area(corners).signum();
     let height = corners.iter().map(|corner| corner[1]).fold(0.0, f64::max);
-    let common = |ends: Segment| {
-        let is_outside = turn * (ends[1][0] - ends[0][0]) > 0.0;
-        frame.along(ends).filter(|_| is_outside)
-    };
-    let hull = sides(corners).filter_map(common);
-    let [low, high] = hull.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
     if height <= NEAR {
         return None;
     }
     let width = WIDTH.min(SHARE * height);
-    let mut strip = vec![[low, 0.0], [low, width], [high, width], [high, 0.0]];
-    for [a, b] in sides(corners).filter(|&ends| common(ends).is_none()) {
+    let mut strip: Outline =
+        [[low, 0.0], [low, width], [high, width], [high, 0.0]].into_iter().collect();
+    for [a, b] in sides(corners).filter(|&ends| frame.common(ends, turn).is_none()) {
         strip = inside(&strip, a, b, turn);
     }
     // The corners on the side are first and last, all other corners in between.
@@ -449,7 +596,7 @@ mod tests {
     use crate::random::SplitMix64;
 
     /// A drawing of one path for each outline.
-    fn drawing(size: [u32; 2], outlines: &[Outline]) -> Drawing {
+    fn drawing(size: [u32; 2], outlines: &[Vec<Point>]) -> Drawing {
         let mut drawing = Drawing::empty(size);
         for (polygon, outline) in outlines.iter().enumerate() {
             drawing.push_outline(polygon, outline);
@@ -458,7 +605,7 @@ mod tests {
     }
 
     /// `n` × `n` squares of a size, each of two triangles. Corners are moved by up to `moved` sizes.
-    fn tiles(n: usize, size: f64, moved: f64) -> Vec<Outline> {
+    fn tiles(n: usize, size: f64, moved: f64) -> Vec<Vec<Point>> {
         let mut random = SplitMix64::new(1);
         let mut corner = |k: usize| {
             [k % (n + 1), k / (n + 1)]
@@ -473,23 +620,47 @@ mod tests {
         triangles
     }
 
-    /// The corners of a trapped drawing, where each side is compared with each part of each later path.
+    /// The corners of a trapped drawing, where each side is compared with all sides of all later paths. Corners of
+    /// neighbours are equal.
     fn trapped_by_brute_force(drawing: &Drawing) -> Vec<Point> {
-        let numbered = drawing.paths().enumerate();
-        let parts =
-            numbered.flat_map(|(n, path)| parts_of(path).into_iter().map(move |(p, _)| (n, p)));
-        let parts: Vec<(usize, Outline)> = parts.collect();
+        let placed = PlacedSides::of(drawing, &Watch::default(), |_| true).unwrap();
+        let all = 0..drawing.corners.len();
         let mut corners = Vec::new();
         for (number, path) in drawing.paths().enumerate() {
             let turn = path.outlines().map(double_area).sum::<f64>().signum();
-            for ends in path.outlines().flat_map(sides) {
+            for side in path.ranges().flatten() {
+                let ends = placed.ends(side);
                 corners.push(ends[0]);
+                let twins: Vec<usize> = all
+                    .clone()
+                    .filter(|&other| {
+                        let other = placed.ends(other);
+                        other == [ends[1], ends[0]] || other == ends
+                    })
+                    .collect();
+                let twin = match twins[..] {
+                    [a, b] if placed.ends(a) != placed.ends(b) => Some(a + b - side),
+                    _ => None,
+                };
+                assert_eq!(placed.twins[side], twin.map_or(NONE, |twin| twin as u32));
                 let Some(frame) = SideFrame::outside_of(ends, turn) else { continue };
-                let later = parts.iter().filter(|(other, _)| *other > number);
-                let mut strips: Vec<_> =
-                    later.filter_map(|(_, part)| strip(&frame, part)).collect();
+                let later = all.clone().filter(|&other| {
+                    placed.paths[other] as usize > number
+                        && placed.part(other).is_some()
+                        && twin.map_or(placed.twins[other] == NONE, |twin| other == twin)
+                });
+                let later: Vec<usize> = later.collect();
+                let by_part = later.chunk_by(|&a, &b| placed.parts_of[a] == placed.parts_of[b]);
+                let mut strips: Vec<_> = by_part
+                    .filter_map(|sides| {
+                        let ends = sides.iter().map(|&side| placed.ends(side));
+                        strip(&frame, placed.part(sides[0])?, ends)
+                    })
+                    .collect();
                 strips.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
-                corners.extend(strips.iter().flatten().map(|&point| frame.world(point)));
+                let at_end = |p: &Point| p[1] == 0.0 && (p[0] < NEAR || p[0] > frame.length - NEAR);
+                let added = strips.iter().flatten().filter(|p| !at_end(p));
+                corners.extend(added.map(|&point| frame.world(point)));
             }
         }
         corners
@@ -567,7 +738,10 @@ mod tests {
         let frame = SideFrame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
         let strip = |outline: &[Point]| {
             let corners: Outline = outline.iter().map(|&corner| frame.local(corner)).collect();
-            band(&frame, &corners)
+            let turn = double_area(&corners).signum();
+            let common = sides(&corners).filter_map(|ends| frame.common(ends, turn));
+            let hull = common.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+            band(&frame, &corners, hull)
         };
         let triangle = [[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]];
         assert_eq!(frame.along([[0.0, 0.0], [4.0, 0.0]]), Some([0.0, 4.0]));
@@ -599,13 +773,14 @@ mod tests {
     #[test]
     fn a_triangle_stands_for_a_strip_that_it_nearly_covers() {
         let frame = SideFrame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
-        let found = strip(&frame, &[[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]]).unwrap();
+        let strip = |outline: &[Point]| strip(&frame, outline, sides(outline));
+        let found = strip(&[[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]]).unwrap();
         assert_eq!(found.len(), 3);
         for (found, expected) in found.iter().zip([[0.0, 0.0], [2.0, 6.0], [4.0, 0.0]]) {
             assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-12), "{found:?}");
         }
         // For a low neighbour a triangle would leave out too much near the ends.
         let low = [[1.0, 2.0], [5.0, 2.0], [5.0, 2.8], [1.0, 2.8]];
-        assert_eq!(strip(&frame, &low).unwrap().len(), 4);
+        assert_eq!(strip(&low).unwrap().len(), 4);
     }
 }

@@ -229,7 +229,13 @@ fn judge(dice: &mut Dice, numbers: Numbers, judged: &mut Judged) {
             numbers.round(p + (q - p) * x + (r - p) * y)
         };
         let card = [inside(), inside(), inside()];
-        let kind = if area(&card) < 1e-9 { 1 } else { dice.below(3) };
+        let kind = dice.below(3);
+        // Narrow shapes may lie on planes at large angles.
+        let longest = (0..3).map(|i| card[i].distance(card[(i + 1) % 3])).fold(0.0, f64::max);
+        let width = [area(&card) / longest, card[0].distance(card[1]), f64::INFINITY][kind];
+        if !(width > 20.0 * tree.stats().tolerance) {
+            continue;
+        }
         let used = &card[..3 - kind];
         let replaced = match (numbers, kind) {
             (Numbers::Single, 0) => overlay.replace(&tree, [card.map(|p| p.as_vec3())]),
