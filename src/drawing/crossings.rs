@@ -15,7 +15,7 @@ use super::pairs::{Found, sorted};
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Growth, NARROWED, VISITED, found_in};
 use super::segments::{ProjectedSegment, parts};
-use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
+use crate::exact::{Faces, PlaneId, PreparedPlane, Side, cross};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
@@ -274,7 +274,13 @@ impl VisibilityMap<'_> {
                 };
                 are_on(c, d) || are_on(d, c)
             });
-            if is_cut && !faces.are_coplanar(one, other) {
+            // Faces that only touch within the tolerance may have been cut as well.
+            let cuts = |plane: u32, face: u32| {
+                let plane = PreparedPlane::new(faces, PlaneId::face(plane));
+                plane.classify(faces, face, None) == Side::Spanning
+            };
+            let do_pass = || cuts(one, other) || cuts(other, one);
+            if is_cut && !faces.are_coplanar(one, other) && do_pass() {
                 return true;
             }
             let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));

@@ -40,7 +40,7 @@ impl Faces {
     }
 
     /// The larger of two faces, then the smaller. Faces without area are the smallest.
-    fn by_size(&self, one: u32, other: u32) -> [u32; 2] {
+    pub(crate) fn by_size(&self, one: u32, other: u32) -> [u32; 2] {
         let is_larger = match [one, other].map(|face| self.has_area(face)) {
             [true, true] => self.is_larger(one, other),
             [has_area, _] => has_area,

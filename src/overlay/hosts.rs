@@ -9,8 +9,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use crate::build::piece::Piece;
 use crate::error::Error;
-use crate::exact::{Faces, Outline, PlaneId, Side};
+use crate::exact::{Faces, Outline, PlaneId, Side, Vertex};
 use crate::memory::push;
 use crate::progress::Watch;
 use crate::tree::bounds::outwards;
@@ -23,8 +24,8 @@ use crate::tree::{BspTree, Flat, Fragment};
 pub(super) struct Hosts {
     /// The fragments of one shape after the other, and of each shape those of the largest polygon first.
     fragments: Vec<u32>,
-    /// For each shape the range of its fragments, if known.
-    of_shapes: Vec<Option<Range<u32>>>,
+    /// For each shape the part of the tree that was searched last, and the range of the shape's fragments there.
+    of_shapes: Vec<Option<[Range<u32>; 2]>>,
 }
 
 impl Hosts {
@@ -35,39 +36,42 @@ impl Hosts {
         self.of_shapes.resize(shapes, None);
     }
 
-    /// The side of a node's plane to which a shape goes if the shape is within twice the tolerance of the plane. It is
-    /// the side of the largest host among the node's fragments, or without a host the shape's own `side`.
-    ///
-    /// Questions about one shape must begin with the node that contains the others.
+    /// The side of a node's plane on which the largest host of a piece is, among the node's fragments; `None` without a
+    /// host. `side` is the piece's own side of the plane.
     pub(super) fn side(
         &mut self,
         (tree, faces): (&BspTree, &Faces),
-        shape: u32,
+        (piece, arena): (&Piece, &[Vertex]),
         (plane, side): (PlaneId, Side),
         node: &Ranges,
         watch: &Watch<'_>,
-    ) -> Result<Side, Error> {
+    ) -> Result<Option<Side>, Error> {
         let Ranges { own, front, back } = node;
+        let all = own.start..front.end.max(back.end);
         let Self { fragments, of_shapes } = self;
-        let known = &mut of_shapes[shape as usize - tree.faces.len()];
+        let known = &mut of_shapes[piece.face as usize - tree.faces.len()];
+        let is_part = |part: &Range<u32>| part.start <= all.start && all.end <= part.end;
         let range = match known {
-            Some(range) => range.clone(),
-            None => {
-                let all = own.start..front.end.max(back.end);
-                if side == Side::Coplanar
-                    && (own.len() == all.len() || is_inside(tree, faces, shape, plane, own))
-                {
-                    return Ok(side);
+            Some([part, range]) if is_part(part) => range.clone(),
+            _ => {
+                if side == Side::Coplanar {
+                    let mut outline = Outline::new();
+                    piece.for_each_vertex(faces, arena, |p| outline.push(p));
+                    if is_inside(tree, faces, &outline, plane, own) {
+                        return Ok(Some(side));
+                    }
                 }
                 let start = fragments.len();
-                find((tree, all), faces, shape, fragments, watch)?;
-                known.insert(start as u32..fragments.len() as u32).clone()
+                find((tree, all.clone()), faces, piece.face, fragments, watch)?;
+                let range = start as u32..fragments.len() as u32;
+                *known = Some([all, range.clone()]);
+                range
             }
         };
         let hosts = &fragments[range.start as usize..range.end as usize];
         let parts = [(own, Side::Coplanar), (front, Side::Front), (back, Side::Back)];
         let side_of = |host| parts.iter().find(|(part, _)| part.contains(host)).map(|part| part.1);
-        Ok(hosts.iter().find_map(side_of).unwrap_or(side))
+        Ok(hosts.iter().find_map(side_of))
     }
 }
 
@@ -75,19 +79,20 @@ impl Hosts {
 /// without need. Too large: time.
 const FEW: usize = 8;
 
-/// Whether a shape lies within a polygon that has a given plane, among the fragments on that plane. Then all its hosts
-/// are on the plane: if a larger polygon there left it, the tree would have that polygon's plane instead.
+/// Whether a piece lies within a polygon that has a given plane, among the fragments on that plane. Then the polygon is a
+/// host, and most often the only one: if a larger polygon that is coplanar with it and overlaps it left the plane, the
+/// tree would have that polygon's plane instead.
 fn is_inside(
     tree: &BspTree,
     faces: &Faces,
-    shape: u32,
+    outline: &Outline,
     plane: PlaneId,
     on_plane: &Range<u32>,
 ) -> bool {
     on_plane.clone().take(FEW).any(|number| {
         let fragment = tree.fragment(number);
         PlaneId::face(fragment.face()) == plane
-            && faces.is_inside(fragment.face(), [&outline(faces, shape), &vertices(fragment)])
+            && faces.is_inside(fragment.face(), [outline, &vertices(fragment)])
     })
 }
 

@@ -8,6 +8,7 @@ use glam::{DVec3, Vec4};
 use super::hosts::Hosts;
 use super::order::{Branch, InsertionTree, Place, SlotSide};
 use super::thin::{Anchors, between};
+use crate::build::choose::follow_larger;
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::error::{Error, Kind};
@@ -38,6 +39,9 @@ pub(super) struct Placer {
     pending: Vec<Pending>,
     front: Vec<Piece>,
     own: Vec<Piece>,
+    /// The side of each piece of a set, and the pieces near the plane: whether each has a host.
+    sides: Vec<Side>,
+    near: Vec<(u32, bool)>,
     /// The box of the set on top of the stack, if that set moved to one side of a plane as a whole.
     crowd: Option<[DVec3; 2]>,
     splitter: Splitter,
@@ -192,18 +196,19 @@ impl Work<'_> {
 
     /// Divides the topmost set of the stack: pieces behind stay on the stack, pieces in front go to `front`,
     /// and pieces on the plane to `own`. `node` are the tree's fragments on the plane and on its sides, if any: a piece
-    /// near the plane may follow the [polygon](Hosts) on which it lies.
+    /// near the plane follows the polygon on which it lies, in the tree ([`Hosts`]) or in the set.
     fn divide(
         &mut self,
         start: usize,
         prepared: &PreparedPlane,
         node: Option<&Ranges>,
     ) -> Result<(), Error> {
-        let Placer { pieces, arena, front, own, splitter, hosts, .. } = &mut *self.placer;
+        let Placer { pieces, arena, front, own, sides, near, splitter, hosts, .. } =
+            &mut *self.placer;
         let Self { tree, faces, watch, .. } = *self;
-        let mut back = start;
-        for i in start..pieces.len() {
-            let piece = pieces[i];
+        near.clear();
+        sides.clear();
+        for (piece, i) in pieces[start..].iter().zip(0..) {
             let cut = piece.cut_vertices(arena);
             let (mut side, reaches) = prepared.classify_and_reach(faces, piece.face, cut);
             if let Some(node) = node
@@ -211,8 +216,16 @@ impl Work<'_> {
                 && prepared.stays_near(faces, piece.face, cut)
             {
                 let on = (prepared.id(), side);
-                side = hosts.side((tree, faces), piece.face, on, node, watch)?;
+                let of_host = hosts.side((tree, faces), (piece, arena), on, node, watch)?;
+                near.push((i, of_host.is_some()));
+                side = of_host.unwrap_or(side);
             }
+            sides.push(side);
+        }
+        follow_larger(faces, (&pieces[start..], arena), near, sides, watch)?;
+        let mut back = start;
+        for (i, &side) in (start..).zip(&*sides) {
+            let piece = pieces[i];
             let behind = match side {
                 Side::Back => Some(piece),
                 Side::Front => {

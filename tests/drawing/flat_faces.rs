@@ -178,3 +178,34 @@ fn a_large_face_crosses_what_the_plane_of_a_small_one_cut() {
         assert!((lengths[0] - lengths[1]).abs() < 0.02, "{heuristic}: {lengths:?}");
     }
 }
+
+/// The first and the second triangle meet at a right angle along a part of an edge. The third cuts both: its plane is
+/// within the tolerance of the edge.
+#[test]
+fn faces_that_touch_within_the_tolerance_do_not_cross() {
+    let faces = [
+        [
+            [-0.38820, -0.84004, 0.82570],
+            [-0.47825, -0.60981, 0.55483],
+            [-0.19471, -1.03776, 0.59332],
+        ],
+        [
+            [-0.85185, 0.04836, 0.24545],
+            [-0.94190, 0.27858, -0.02543],
+            [-0.74841, 0.08085, -0.25780],
+        ],
+        [
+            [0.43866, -0.09677, -0.80342],
+            [-0.16795, -0.51232, -0.95493],
+            [-0.94190, 0.27858, -0.02543],
+        ],
+    ];
+    let eye = DVec3::new(-3.6714836744344677, -6.984670433096557, 1.317037041767594);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.6, [400, 300]).unwrap();
+    for &heuristic in Heuristic::ALL {
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic).with_tolerance(4e-5);
+        let tree = options.build(faces).unwrap();
+        let found = length(&map_of(&tree, &camera).crossings(Hidden::Keep).unwrap());
+        assert!(found < 0.1, "{heuristic}: {found}");
+    }
+}

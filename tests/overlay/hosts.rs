@@ -112,6 +112,88 @@ fn one_card_or_many_on_a_wall_that_lies_on_another_plane() {
     }
 }
 
+const TAU_OF_SQUARES: f64 = 1e-3;
+
+/// The numbers of polygons, `l` and `p` for lines and points, in the order from below or from above.
+fn painted(tree: &BspTree, overlay: &Overlay, z: f64) -> Vec<String> {
+    let view = Viewpoint::direction([0.1, 0.2, z]);
+    let name = |shape: Shape<'_>| match shape {
+        Shape::Fragment(fragment) => fragment.polygon().to_string(),
+        Shape::Segment(_) => "l".to_owned(),
+        _ => "p".to_owned(),
+    };
+    overlay.order(tree, view).expect("its own tree").into_iter().map(name).collect()
+}
+
+/// Whether each piece of a shape comes after a piece of another, one by one.
+fn is_after(order: &[String], shape: &str, other: &str) -> bool {
+    let places = |wanted: &str| {
+        let named = order.iter().enumerate().filter(|(_, name)| *name == wanted);
+        named.map(|(place, _)| place).collect::<Vec<_>>()
+    };
+    let [pieces, others] = [shape, other].map(places);
+    assert_eq!(pieces.len(), others.len(), "{order:?}");
+    !pieces.is_empty() && pieces.iter().zip(&others).all(|(piece, other)| piece > other)
+}
+
+/// A plane across cuts a card. Each of its pieces lies on a wall and on the plane of a small square beside it.
+#[test]
+fn each_piece_of_a_cut_shape_lies_on_the_wall() {
+    let t = TAU_OF_SQUARES;
+    let divider = [[-40.0, -20.0], [40.0, -20.0], [40.0, 20.0], [-40.0, 20.0]];
+    let still = [
+        divider.map(|[y, z]| dvec3(0.0, y, z)),
+        square(-41.0, 0.0, 1.0, 0.0),
+        square(40.0, 0.0, 1.0, 0.0),
+        square(-30.0, -30.0, 60.0, 0.9 * t),
+    ];
+    let card = square(-1.0, -1.0, 2.5, 1.8 * t);
+    for (name, tree) in trees(&still, BuildOptions::DEFAULT.with_tolerance(t)) {
+        let mut overlay = Overlay::new(&tree);
+        for z in [1.0, -1.0] {
+            overlay.replace(&tree, [card]).expect("on the grid");
+            let order = painted(&tree, &overlay, z);
+            assert!(is_after(&order, "4", "3"), "{name} {z}: {order:?}");
+            let line = Shapes::NONE.with_lines([[card[0], card[2]]]);
+            overlay.replace_with(&tree, line).expect("on the grid");
+            let order = painted(&tree, &overlay, z);
+            assert!(is_after(&order, "l", "3"), "{name} {z}: {order:?}");
+        }
+    }
+}
+
+/// A plane of the tree passes between shapes of the overlay that lie on one another.
+#[test]
+fn shapes_on_one_another_follow_the_larger_one() {
+    let t = TAU_OF_SQUARES;
+    let bounds = [DVec3::splat(-50.0), DVec3::splat(50.0)];
+    let options = BuildOptions::DEFAULT.with_tolerance(t).with_bounds(bounds[0], bounds[1]);
+    let tree = options.build([square(40.0, 40.0, 1.0, 0.0)]).expect("a tree");
+    let mut overlay = Overlay::new(&tree);
+    for (side, z) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+        for [large, small] in [[0.9, 1.8], [1.5, 0.7]].map(|heights| heights.map(|h| side * h * t))
+        {
+            // Also so many that they are sorted.
+            for count in [1, 50] {
+                let cards = (0..count).map(|k| square(0.1 + 0.19 * f64::from(k), 1.0, 1.0, small));
+                let all = [square(0.0, 0.0, 15.0, large)].into_iter().chain(cards);
+                overlay.replace(&tree, all).expect("on the grid");
+                let order = painted(&tree, &overlay, z);
+                for pair in (1..=count as usize).map(|k| [k, k + 1]) {
+                    let [first, second] = [1, 2].map(|i| pair[i - 1].to_string());
+                    assert!(is_after(&order, &second, &first), "{large} {small} {z}: {order:?}");
+                }
+            }
+            let shapes = Shapes::NONE.with_polygons([square(0.0, 0.0, 15.0, large)]);
+            let shapes = shapes.with_lines([[dvec3(1.0, 1.0, small), dvec3(3.0, 2.0, small)]]);
+            let shapes = shapes.with_points([dvec3(2.0, 3.0, small)]);
+            overlay.replace_with(&tree, shapes).expect("on the grid");
+            let order = painted(&tree, &overlay, z);
+            assert!(is_after(&order, "l", "1") && is_after(&order, "p", "l"), "{order:?}");
+        }
+    }
+}
+
 /// How the corners of a wall and of shapes on it are given.
 #[derive(Clone, Copy, Debug)]
 enum Numbers {
@@ -280,7 +362,7 @@ fn shapes_within_a_polygon_of_a_wall_come_after_it() {
             judge(&mut Dice(seed), numbers, &mut judged);
         }
         let Judged { shapes, on_two_planes } = judged;
-        assert!(shapes.iter().all(|&count| count > 500), "{shapes:?}");
+        assert!(shapes.iter().all(|&count| count > 250), "{shapes:?}");
         assert!(on_two_planes > 60, "{on_two_planes}");
     }
 }

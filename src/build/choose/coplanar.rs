@@ -8,7 +8,9 @@ use super::ChooseContext;
 use super::set::Set;
 use crate::Error;
 use crate::build::piece::{Division, Piece};
-use crate::exact::{Outline, PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side};
+use crate::exact::{
+    Faces, Outline, PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side, Vertex,
+};
 use crate::progress::Watch;
 
 /// The largest number of faces whose planes are tried, including the first plane if it is a face's. Too small:
@@ -132,6 +134,55 @@ pub(super) fn larger(
         }
     }
     Ok(best)
+}
+
+/// Moves the sides of pieces `near` a plane, each with whether its side is certain, to the side of the largest piece that
+/// is coplanar with the piece and overlaps it. All of them lie within twice the tolerance of the plane.
+pub(crate) fn follow_larger(
+    faces: &Faces,
+    (pieces, arena): (&[Piece], &[Vertex]),
+    near: &mut [(u32, bool)],
+    sides: &mut [Side],
+    watch: &Watch<'_>,
+) -> Result<(), Error> {
+    let side = |sides: &[Side], &(piece, _): &(u32, bool)| sides[piece as usize];
+    if near.windows(2).all(|two| side(sides, &two[0]) == side(sides, &two[1])) {
+        return Ok(());
+    }
+    let set = Set::new(faces, pieces, arena);
+    let face = |piece: u32| pieces[piece as usize].face;
+    let is_larger = |one: u32, other: u32| faces.by_size(face(one), face(other))[0] == face(one);
+    near.sort_unstable_by(|&(a, _), &(b, _)| match face(a) == face(b) {
+        true => a.cmp(&b),
+        false => is_larger(b, a).cmp(&is_larger(a, b)),
+    });
+    let numbers: Vec<u32> = near.iter().map(|&(piece, _)| piece).collect();
+    let (sorted, tolerance) = (SortedPieces::of(&set, &numbers), faces.tolerance());
+    for &(small, is_certain) in near.iter() {
+        if is_certain {
+            continue;
+        }
+        let piece = &pieces[small as usize];
+        let touching = sorted.touching(&set, piece, tolerance);
+        watch.work(touching.len())?;
+        let mut largest = None;
+        for &other in touching {
+            if sides[other as usize] != sides[small as usize]
+                && face(other) != face(small)
+                && is_larger(other, small)
+                && largest.is_none_or(|largest| is_larger(other, largest))
+                && Bounds::of(&pieces[other as usize]).touches(piece, tolerance)
+                && faces.are_coplanar(face(other), face(small))
+                && overlap(&set, &pieces[other as usize], piece)
+            {
+                largest = Some(other);
+            }
+        }
+        if let Some(largest) = largest {
+            sides[small as usize] = sides[largest as usize];
+        }
+    }
+    Ok(())
 }
 
 /// The sine of the largest angle between a plane and a face that may be coplanar with a piece on the plane.

@@ -30,6 +30,7 @@ use auto::Auto;
 use given::SortedCorners;
 use own::Scored;
 
+pub(crate) use coplanar::follow_larger;
 pub(super) use coplanar::settle;
 pub(super) use given::GivenChooser;
 pub use given::{PieceSet, SplitPlane};
