@@ -33,7 +33,6 @@ pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), Error> {
 /// # Errors
 ///
 /// If the length is more than `u32::MAX`: such a length counts as out of memory.
-#[cfg(feature = "drawing")]
 pub(crate) fn place(len: usize) -> Result<u32, Error> {
     u32::try_from(len).map_err(|_| Error::out_of_memory())
 }

@@ -16,19 +16,25 @@ const AT_ONCE: usize = 1 << 15;
 /// A pixel is divided into at most this many parts that let light through; then [`SAMPLES`] points replace the parts. Too
 /// large: time where thousands of polygons meet in a pixel. Too small: shares of areas are less exact.
 const MOST_PARTS: usize = 64;
-/// The number of points along each side of a pixel.
+/// The number of points along each side of a pixel. Too small: steps of brightness where many polygons meet. Too large:
+/// time and memory there.
 const SAMPLES: usize = 16;
 
-/// Distances from a side, in pixels, that count as 0, and areas.
+/// Distances from a side, in pixels, and areas, in square pixels, that count as 0.
 const NEAR: f64 = 1e-9;
-/// A larger distance, in pixels, by which no corner of a cell is wrong.
+/// A bound on the error of a cell's corner, in pixels. Too small: a side of almost no length cuts its cell. Too large: a
+/// side with a wrong direction stays.
 const COARSE: f64 = 1e-5;
+/// A side at least this long, in pixels, has the right direction although its ends are rounded. Too small: a wrong side
+/// cuts its cell. Too large: time for cells of many corners.
+const LONG: f64 = 1e-3;
 
-/// The pixels of a map, row by row, with the colours and opacities of the map's polygons. Calls a function after each
-/// part of the picture with the share of pixels done so far.
+/// The pixels of a map, row by row, with the colours and opacities of the map's polygons. After each part of the picture,
+/// calls a function with the number of rows done so far and of all rows.
 ///
 /// Colours are blended as sRGB numbers, as viewers of vector pictures do, not as amounts of light. Takes O(p · n) time
-/// for p pixels and n polygons that lie over one another, and O(p) memory.
+/// for p pixels and n polygons that lie over one another. Memory is proportional to the pixels that are blended at once,
+/// and to the cells, each counted once for each part of the picture that it reaches.
 pub(crate) fn picture(
     map: &VisibilityMap<'_>,
     background: [u8; 3],
@@ -110,7 +116,8 @@ impl Outline {
         sides.clear();
         sides.extend(all.iter().zip(next).map(|(&from, &to)| Side::new(from, to, turn)));
         // Corners are rounded, so a side of almost no length may have any direction. Its neighbours bound the cell.
-        sides.retain(|side| all.iter().all(|&corner| side.distance(corner) >= -COARSE));
+        let is_right = |side: &Side| all.iter().all(|&corner| side.distance(corner) >= -COARSE);
+        sides.retain(|side| side.length >= LONG || is_right(side));
     }
 }
 
@@ -120,13 +127,17 @@ struct Side {
     /// A point, and the unit vector into the cell.
     from: [f64; 2],
     inwards: [f64; 2],
+    length: f64,
+    /// The range of y that the side reaches, and a little more.
+    reach: [f64; 2],
 }
 
 impl Side {
     fn new(from: [f64; 2], to: [f64; 2], turn: f64) -> Self {
         let [x, y] = [0, 1].map(|i| (to[i] - from[i]) * turn);
         let length = x.hypot(y);
-        Self { from, inwards: [-y / length, x / length] }
+        let reach = [from[1].min(to[1]) - LONG, from[1].max(to[1]) + LONG];
+        Self { from, inwards: [-y / length, x / length], length, reach }
     }
 
     /// The distance of a point from the line, positive on the cell's side.
@@ -178,8 +189,13 @@ impl Band {
         let y = corners.iter().map(|p| p[1] - self.top as f64);
         let low = y.clone().fold(f64::INFINITY, f64::min).floor().clamp(0.0, height as f64);
         let high = y.fold(f64::NEG_INFINITY, f64::max).ceil().clamp(0.0, height as f64);
+        let mut sides = Vec::new();
         for row in low as usize..high as usize {
             let y = (self.top + row) as f64;
+            // Within a row, only the sides that reach into it bound a convex cell.
+            sides.clear();
+            let reaches = |side: &&Side| side.reach[0] <= y + 1.0 && y <= side.reach[1];
+            sides.extend(outline.sides.iter().filter(reaches));
             let Some([touched, covered]) = spans(corners, y) else { continue };
             let columns = touched.map(|x| x.clamp(0.0, self.width as f64));
             for column in columns[0].floor() as usize..columns[1].ceil() as usize {
@@ -188,7 +204,7 @@ impl Band {
                 if covered[0] <= x && x + 1.0 <= covered[1] {
                     pixel.cover(look);
                 } else {
-                    pixel.add([x, y], &outline.sides, look);
+                    pixel.add([x, y], &sides, look);
                 }
             }
         }

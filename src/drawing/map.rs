@@ -236,8 +236,8 @@ impl VisibilityMap<'_> {
         self.primitives.lines.frame.rays.size()
     }
 
-    /// Returns all cells. Of two cells that overlap, the nearer comes first. (Only polygons behind translucent polygons
-    /// have cells that overlap others.)
+    /// Returns all cells. Of two cells that overlap, the nearer comes first. Cells overlap only where
+    /// the nearer polygon is translucent.
     pub fn cells(&self) -> impl Iterator<Item = MapCell<'_>> + Clone {
         let cells = self.leaves.iter().flat_map(|leaf| &leaf.cells);
         cells

@@ -58,33 +58,21 @@ impl VisibilityMap<'_> {
     fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
         let mut stacks = Stacks::default();
         stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
+        // In the parts of all tiles.
         let sum = AtomicUsize::new(0);
-        self.for_each_divided(Some(&sum), watch, &mut |divided| {
-            stacks.add(divided, |item| self.primitives.polygon(item))
-        })?;
-        Ok(stacks)
-    }
-
-    /// Calls a function with each tile, divided into convex parts. Counts as one phase of the progress.
-    fn for_each_divided(
-        &self,
-        sum: Option<&AtomicUsize>,
-        watch: &Watch<'_>,
-        see: &mut dyn FnMut(&Divided) -> Result<(), Error>,
-    ) -> Result<(), Error> {
         let numbered: Vec<(usize, &Leaf)> = self.leaves.iter().enumerate().collect();
         let divided = |(i, leaf)| {
-            let divided = Divided::new(leaf, &self.primitives, sum, watch)?;
+            let divided = Divided::new(leaf, &self.primitives, Some(&sum), watch)?;
             finish_item(watch, i, numbered.len());
             Ok(divided)
         };
         for leaves in numbered.chunks(TILES_AT_ONCE) {
             for divided in parallel_map::map(leaves.to_vec(), divided)? {
                 watch.work(divided.cells.len() * CUT)?;
-                see(&divided)?;
+                stacks.add(&divided, |item| self.primitives.polygon(item))?;
             }
         }
-        Ok(())
+        Ok(stacks)
     }
 }
 
@@ -198,25 +186,25 @@ fn area(outline: &[[f64; 2]]) -> f64 {
 }
 
 /// A tile that is divided into convex parts.
-pub(super) struct Divided {
-    pub(super) cells: Vec<LayeredCell>,
+struct Divided {
+    cells: Vec<LayeredCell>,
     /// Each layer follows the layer in front of it. The first layer has no item.
-    pub(super) layers: Vec<ItemLayer>,
+    layers: Vec<ItemLayer>,
 }
 
 /// A convex part in which the same items are visible everywhere.
-pub(super) struct LayeredCell {
-    pub(super) cell: Cell,
+struct LayeredCell {
+    cell: Cell,
     around: Rect,
     /// The rearmost of the cell's layers; the first layer, which has no item, if nothing is visible.
-    pub(super) layer: u32,
+    layer: u32,
 }
 
 /// A visible item, and the layer in front of the item. Cells share layers, to save memory where many items
 /// lie over one another.
-pub(super) struct ItemLayer {
-    pub(super) item: u32,
-    pub(super) before: u32,
+struct ItemLayer {
+    item: u32,
+    before: u32,
     /// The number of items in front.
     depth: u32,
     /// The newest of the layers directly behind this layer.

@@ -53,8 +53,8 @@ impl Drawing {
     /// returns whether the polygon with a given number is opaque. A side of an outline is extended if
     ///
     /// - its own polygon is opaque;
-    /// - a polygon that is painted later touches the side, and is opaque; if two polygons have the same side, only
-    ///   these two count;
+    /// - a polygon that is painted later touches the side, and is opaque; if exactly two polygons have the same side, only
+    ///   the later one of these counts, even if it is translucent;
     /// - the outline of that polygon is convex or has at most 24 corners; and
     /// - the area of the extension is at least a tenth of a square pixel.
     ///
@@ -62,7 +62,7 @@ impl Drawing {
     /// [edge](Path::edges) of its polygon.
     ///
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) traps drawings automatically. Takes
-    /// O(n log n) for n corners, unless many sides are close to one another.
+    /// O(n log n) for n corners, unless many sides are close to one another, and uses all threads.
     #[must_use]
     pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {
         // Only a callback cancels. A drawing of too many corners stays as it is.
@@ -132,9 +132,9 @@ impl Trapper<'_> {
                     trapped.corners.push(ends[0]);
                     trapped.edges.push(drawing.edges[side]);
                     // Strips at a shorter side are too small.
-                    let frame = SideFrame::outside_of(ends, turn)
-                        .filter(|frame| frame.length * WIDTH >= SMALLEST);
-                    let Some(frame) = frame.filter(|_| sides.is_opaque[number]) else { continue };
+                    let frame = sides.is_opaque[number].then(|| SideFrame::outside_of(ends, turn));
+                    let is_long = |frame: &SideFrame| frame.length * WIDTH >= SMALLEST;
+                    let Some(frame) = frame.flatten().filter(is_long) else { continue };
                     self.find_strips(side, number, &frame, &mut near, &mut strips, watch)?;
                     if strips.is_empty() {
                         continue;
@@ -186,8 +186,9 @@ impl Trapper<'_> {
 
 /// No number.
 const NONE: u32 = u32::MAX;
-/// Corners that are equal in these units, a share of a pixel, are one corner of two paths: far more than the rounding of
-/// corners, and far less than [`NEAR`].
+/// The number of units in a pixel. Corners of two paths that round to the same unit are one corner. (Where two equal corners
+/// round to different units, the grid finds their sides.) Too large: rounding separates common corners. Too small:
+/// different corners count as one.
 const UNITS: f64 = 4096.0;
 
 /// The sides of a drawing's outlines. Each is numbered by the corner at which it begins.

@@ -176,8 +176,7 @@ impl PreparedPlane {
             (None, &[a, b, c, d]) => self.extent([a, b, c, d].into_iter()),
             (None, corners) => self.extent(corners.iter().copied()),
         };
-        let twice = 2.0 * self.band + self.bound;
-        let reaches = low <= twice && high >= -twice;
+        let reaches = low <= self.twice() && high >= -self.twice();
         (self.side_of_extent(faces, face, cut, [low, high]), reaches)
     }
 
@@ -187,7 +186,12 @@ impl PreparedPlane {
             Some(vertices) => self.extent(vertices.iter().map(|vertex| vertex.position)),
             None => self.extent(faces.corners(face).iter().copied()),
         };
-        high.max(-low) <= 2.0 * self.band + self.bound
+        high.max(-low) <= self.twice()
+    }
+
+    /// A bound on the rounded distance of points within twice the tolerance.
+    fn twice(&self) -> f64 {
+        2.0 * self.band + self.bound
     }
 
     /// The side of a piece whose rounded vertices extend from `low` to `high`.

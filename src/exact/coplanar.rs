@@ -7,6 +7,8 @@
 //!
 //! The relation is symmetric, but not transitive: two faces can be coplanar with a third and up to 2 τ apart.
 
+use std::cmp::Ordering;
+
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
@@ -34,23 +36,20 @@ impl Faces {
         a > b || a == b && one < other
     }
 
-    /// Whether a face is a polygon, not a segment or a point.
-    fn has_area(&self, face: u32) -> bool {
-        (face as usize) < self.first_thin()
-    }
-
-    /// The larger of two faces, then the smaller. Faces without area are the smallest.
-    pub(crate) fn by_size(&self, one: u32, other: u32) -> [u32; 2] {
-        let is_larger = match [one, other].map(|face| self.has_area(face)) {
-            [true, true] => self.is_larger(one, other),
-            [has_area, _] => has_area,
+    /// The order of two faces by size, the larger first. Faces without area are last.
+    pub(crate) fn largest_first(&self, one: u32, other: u32) -> Ordering {
+        let by_size = || match one == other {
+            true => Ordering::Equal,
+            false if self.is_larger(one, other) => Ordering::Less,
+            false => Ordering::Greater,
         };
-        if is_larger { [one, other] } else { [other, one] }
+        self.has_area(other).cmp(&self.has_area(one)).then_with(by_size)
     }
 
     /// Whether two faces lie in one plane.
     pub(crate) fn are_coplanar(&self, one: u32, other: u32) -> bool {
-        let [large, small] = self.by_size(one, other);
+        let [large, small] =
+            if self.largest_first(one, other).is_le() { [one, other] } else { [other, one] };
         PreparedPlane::new(self, PlaneId::face(large)).contains(self, small)
     }
 
@@ -122,7 +121,10 @@ fn has_outside(outline: &[DVec2], other: &[DVec2], margin: f64) -> bool {
 /// The sides of a convex outline, each with its first point and as a vector with the inside to its left.
 fn sides(outline: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
     let next = || outline.iter().cycle().skip(1);
-    let area: f64 = outline.iter().zip(next()).map(|(a, b)| a.perp_dot(*b)).sum();
+    // About the first point: about the origin, products of large coordinates would round a small area away.
+    let origin = outline.first().copied().unwrap_or_default();
+    let area: f64 =
+        outline.iter().zip(next()).map(|(a, b)| (*a - origin).perp_dot(*b - origin)).sum();
     outline.iter().zip(next()).map(move |(&a, &b)| [a, (b - a) * area.signum()])
 }
 
@@ -174,6 +176,30 @@ mod tests {
             card.rotate_left(turn);
             let (faces, _) = Faces::new([wall, card], Some(24.0)).unwrap();
             assert_eq!(faces.are_coplanar(0, 1), height < 24.0, "{turn}, {height}");
+        }
+    }
+
+    /// Small cards far from the origin of the grid.
+    #[test]
+    fn small_outlines_overlap_wherever_they_are() {
+        let wall = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]].map(DVec3::from_array);
+        let (faces, _) = Faces::new([wall], Some(0.0)).unwrap();
+        let mut random = crate::random::SplitMix64::new(2);
+        for size in (10..40).map(|power| f64::from(power).exp2()) {
+            for _ in 0..20 {
+                let at = [(); 2].map(|()| (random.range(-1.0, 1.0) * 2f64.powi(50)).round());
+                let card = |shift: f64| -> Outline {
+                    let corners = [[0.0, 0.0], [1.0, 0.25], [0.75, 1.0], [-0.25, 0.75]];
+                    let corner =
+                        |c: [f64; 2]| [at[0] + size * (c[0] + shift), at[1] + size * c[1], 0.0];
+                    corners.into_iter().map(corner).collect()
+                };
+                for (shift, expected) in [(0.0, true), (0.75, true), (1.5, false), (-1.5, false)] {
+                    let both = [&card(0.0), &card(shift)];
+                    assert_eq!(faces.overlap(0, both), expected, "{size} {at:?} {shift}");
+                    assert_eq!(faces.is_inside(0, both), shift == 0.0, "{size} {at:?} {shift}");
+                }
+            }
         }
     }
 }

@@ -167,6 +167,11 @@ impl Faces {
         self.len() - self.thin.segments - self.thin.points
     }
 
+    /// Whether a face is a polygon, not a segment or a point.
+    pub(crate) fn has_area(&self, face: u32) -> bool {
+        (face as usize) < self.first_thin()
+    }
+
     /// The number of leading corners that belong to a face: two for a segment, one for a point, and all
     /// corners for other faces.
     pub(crate) fn reach(&self, face: u32) -> usize {

@@ -27,11 +27,10 @@ impl Vertex {
     /// Returns the corners of a face, in order around it; for a segment its ends, which lie on the first edge of its
     /// face.
     pub fn corners(faces: &Faces, face: u32) -> impl Iterator<Item = Self> {
-        let count = faces.reach(face);
-        let is_thin = count < faces.corners(face).len();
-        (0..count as u32).map(move |k| {
+        let has_area = faces.has_area(face);
+        (0..faces.reach(face) as u32).map(move |k| {
             let corner = Self::corner(faces, face, k);
-            if is_thin { corner.with_line(EdgeLine::edge(0)) } else { corner }
+            if has_area { corner } else { corner.with_line(EdgeLine::edge(0)) }
         })
     }
 

@@ -12,7 +12,7 @@ use glam::DVec3;
 use crate::build::piece::Piece;
 use crate::error::Error;
 use crate::exact::{Faces, Outline, PlaneId, Side, Vertex};
-use crate::memory::push;
+use crate::memory::{place, push};
 use crate::progress::Watch;
 use crate::tree::bounds::outwards;
 use crate::tree::node::Ranges;
@@ -22,7 +22,8 @@ use crate::tree::{BspTree, Flat, Fragment};
 /// when a shape is first asked for.
 #[derive(Default)]
 pub(super) struct Hosts {
-    /// The fragments of one shape after the other, and of each shape those of the largest polygon first.
+    /// The fragments of one shape after the other, and of each shape those of the largest polygon first: one number for
+    /// each pair of a shape and a fragment on which it lies.
     fragments: Vec<u32>,
     /// For each shape the part of the tree that was searched last, and the range of the shape's fragments there.
     of_shapes: Vec<Option<[Range<u32>; 2]>>,
@@ -63,7 +64,7 @@ impl Hosts {
                 }
                 let start = fragments.len();
                 find((tree, all.clone()), faces, piece.face, fragments, watch)?;
-                let range = start as u32..fragments.len() as u32;
+                let range = place(start)?..place(fragments.len())?;
                 *known = Some([all, range.clone()]);
                 range
             }
@@ -132,10 +133,7 @@ fn find(
     }
     found[start..].sort_unstable_by(|&a, &b| {
         let [one, other] = [a, b].map(|number| tree.records[number as usize].face);
-        match one == other {
-            true => a.cmp(&b),
-            false => faces.is_larger(other, one).cmp(&faces.is_larger(one, other)),
-        }
+        faces.largest_first(one, other).then(a.cmp(&b))
     });
     Ok(())
 }

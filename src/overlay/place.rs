@@ -8,7 +8,7 @@ use glam::{DVec3, Vec4};
 use super::hosts::Hosts;
 use super::order::{Branch, InsertionTree, Place, SlotSide};
 use super::thin::{Anchors, between};
-use crate::build::choose::follow_larger;
+use crate::build::choose::{NearPiece, Set, follow_larger};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::error::{Error, Kind};
@@ -39,9 +39,9 @@ pub(super) struct Placer {
     pending: Vec<Pending>,
     front: Vec<Piece>,
     own: Vec<Piece>,
-    /// The side of each piece of a set, and the pieces near the plane: whether each has a host.
+    /// The side of each piece of a set, and the pieces near the plane.
     sides: Vec<Side>,
-    near: Vec<(u32, bool)>,
+    near: Vec<NearPiece>,
     /// The box of the set on top of the stack, if that set moved to one side of a plane as a whole.
     crowd: Option<[DVec3; 2]>,
     splitter: Splitter,
@@ -150,10 +150,10 @@ impl Work<'_> {
         if side.is_none() {
             let [own, front, back] =
                 [&own, &in_front.fragments, &behind.fragments].map(Range::clone);
-            let has_hosts = in_front.of == Whose::Tree
+            let may_have_hosts = in_front.of == Whose::Tree
                 && self.faces.tolerance() > 0.0
                 && !(own.is_empty() && front.is_empty() && back.is_empty());
-            let node = has_hosts.then_some(Ranges { own, front, back });
+            let node = may_have_hosts.then_some(Ranges { own, front, back });
             self.divide(start, &prepared, node.as_ref())?;
         }
         let own = if in_front.of == Whose::Cell { own } else { 0..0 };
@@ -217,12 +217,14 @@ impl Work<'_> {
             {
                 let on = (prepared.id(), side);
                 let of_host = hosts.side((tree, faces), (piece, arena), on, node, watch)?;
-                near.push((i, of_host.is_some()));
+                near.push(NearPiece { piece: i, is_decided: of_host.is_some() });
                 side = of_host.unwrap_or(side);
             }
             sides.push(side);
         }
-        follow_larger(faces, (&pieces[start..], arena), near, sides, watch)?;
+        if !near.is_empty() {
+            follow_larger(&Set::new(faces, &pieces[start..], arena), near, sides, watch)?;
+        }
         let mut back = start;
         for (i, &side) in (start..).zip(&*sides) {
             let piece = pieces[i];

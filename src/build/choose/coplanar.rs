@@ -8,14 +8,12 @@ use super::ChooseContext;
 use super::set::Set;
 use crate::Error;
 use crate::build::piece::{Division, Piece};
-use crate::exact::{
-    Faces, Outline, PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side, Vertex,
-};
+use crate::exact::{Outline, PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side};
 use crate::progress::Watch;
 
 /// The largest number of faces whose planes are tried, including the first plane if it is a face's. Too small:
-/// of several pieces, each coplanar only with the next, two lose input order. Too large: a set that is made for
-/// it is classified so often.
+/// of several pieces, each coplanar only with the next, two lose input order. Too large: an adversarial set
+/// is classified that many times.
 const MOST_PLANES: usize = 32;
 
 /// Classifies a set by a plane. If the plane would separate coplanar pieces that overlap, or cut one of them,
@@ -136,50 +134,57 @@ pub(super) fn larger(
     Ok(best)
 }
 
-/// Moves the sides of pieces `near` a plane, each with whether its side is certain, to the side of the largest piece that
-/// is coplanar with the piece and overlaps it. All of them lie within twice the tolerance of the plane.
+/// A piece of a set that lies within twice the tolerance of a plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NearPiece {
+    /// Its number in the set.
+    pub(crate) piece: u32,
+    /// Whether a polygon outside the set decided its side.
+    pub(crate) is_decided: bool,
+}
+
+/// Moves pieces `near` a plane, unless their sides are decided, to the side of the largest piece that is coplanar with
+/// the piece and overlaps it, unless the plane cuts that piece.
 pub(crate) fn follow_larger(
-    faces: &Faces,
-    (pieces, arena): (&[Piece], &[Vertex]),
-    near: &mut [(u32, bool)],
+    set: &Set<'_>,
+    near: &mut [NearPiece],
     sides: &mut [Side],
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
-    let side = |sides: &[Side], &(piece, _): &(u32, bool)| sides[piece as usize];
+    let side = |sides: &[Side], near: &NearPiece| sides[near.piece as usize];
     if near.windows(2).all(|two| side(sides, &two[0]) == side(sides, &two[1])) {
         return Ok(());
     }
-    let set = Set::new(faces, pieces, arena);
+    let (faces, pieces, tolerance) = (set.faces, set.pieces, set.faces.tolerance());
     let face = |piece: u32| pieces[piece as usize].face;
-    let is_larger = |one: u32, other: u32| faces.by_size(face(one), face(other))[0] == face(one);
-    near.sort_unstable_by(|&(a, _), &(b, _)| match face(a) == face(b) {
-        true => a.cmp(&b),
-        false => is_larger(b, a).cmp(&is_larger(a, b)),
+    near.sort_unstable_by(|a, b| {
+        faces.largest_first(face(a.piece), face(b.piece)).then(a.piece.cmp(&b.piece))
     });
-    let numbers: Vec<u32> = near.iter().map(|&(piece, _)| piece).collect();
-    let (sorted, tolerance) = (SortedPieces::of(&set, &numbers), faces.tolerance());
-    for &(small, is_certain) in near.iter() {
-        if is_certain {
+    let numbers: Vec<u32> = near.iter().map(|near| near.piece).collect();
+    let sorted = SortedPieces::of(set, &numbers);
+    for &NearPiece { piece: small, is_decided } in near.iter() {
+        if is_decided {
             continue;
         }
         let piece = &pieces[small as usize];
-        let touching = sorted.touching(&set, piece, tolerance);
+        let touching = sorted.touching(set, piece, tolerance);
         watch.work(touching.len())?;
         let mut largest = None;
         for &other in touching {
-            if sides[other as usize] != sides[small as usize]
-                && face(other) != face(small)
-                && is_larger(other, small)
-                && largest.is_none_or(|largest| is_larger(other, largest))
-                && Bounds::of(&pieces[other as usize]).touches(piece, tolerance)
+            let is_larger = |than: u32| faces.largest_first(face(other), face(than)).is_lt();
+            if Bounds::of(&pieces[other as usize]).touches(piece, tolerance)
+                && is_larger(largest.unwrap_or(small))
                 && faces.are_coplanar(face(other), face(small))
-                && overlap(&set, &pieces[other as usize], piece)
+                && overlap(set, &pieces[other as usize], piece)
             {
                 largest = Some(other);
             }
         }
-        if let Some(largest) = largest {
-            sides[small as usize] = sides[largest as usize];
+        // A plane that cuts the larger piece need not meet the smaller one.
+        if let Some(side) = largest.map(|largest| sides[largest as usize])
+            && side != Side::Spanning
+        {
+            sides[small as usize] = side;
         }
     }
     Ok(())

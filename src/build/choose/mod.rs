@@ -30,12 +30,12 @@ use auto::Auto;
 use given::SortedCorners;
 use own::Scored;
 
-pub(crate) use coplanar::follow_larger;
 pub(super) use coplanar::settle;
+pub(crate) use coplanar::{NearPiece, follow_larger};
 pub(super) use given::GivenChooser;
 pub use given::{PieceSet, SplitPlane};
 pub(super) use peel::Peeled;
-pub(super) use set::Set;
+pub(crate) use set::Set;
 pub(super) use table::{CutBy, Mask, Part, Sides, Table};
 pub use tuning::{FrameTuning, Tuning};
 
