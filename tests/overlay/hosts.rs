@@ -342,7 +342,7 @@ fn judge(dice: &mut Dice, numbers: Numbers, judged: &mut Judged) {
         // Narrow shapes may lie on planes at large angles.
         let longest = (0..3).map(|i| card[i].distance(card[(i + 1) % 3])).fold(0.0, f64::max);
         let width = [area(&card) / longest, card[0].distance(card[1]), f64::INFINITY][kind];
-        if !(width > 20.0 * tree.stats().tolerance) {
+        if width.is_nan() || width <= 20.0 * tree.stats().tolerance {
             continue;
         }
         let used = &card[..3 - kind];
