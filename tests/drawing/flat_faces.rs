@@ -72,6 +72,33 @@ fn prisms(dice: &mut Dice) -> Vec<Vec<DVec3>> {
     triangles
 }
 
+/// How far the ends of lines may move if corners move by a length in the picture: an end on a side moves along its line by
+/// that length divided by the sine of the angle between both.
+fn shift(runs: &[EdgeRun], polygons: &[Vec<DVec3>], camera: &Camera, moved: f64) -> f64 {
+    let corner = |p: &DVec3| camera.project(*p).expect("in front of the eye");
+    let outlines: Vec<Vec<DVec2>> = polygons
+        .iter()
+        .map(|polygon| polygon.iter().map(|p| DVec2::from_array(corner(p))).collect())
+        .collect();
+    let of_end = |[end, other]: [DVec2; 2]| {
+        let way = (other - end).normalize();
+        let sides = outlines.iter().flat_map(|outline| {
+            outline.iter().zip(outline.iter().cycle().skip(1)).filter_map(|(&a, &b)| {
+                let along = (b - a).normalize();
+                let is_near = (end - a).perp_dot(along).abs() < 0.1
+                    && (-0.1..=a.distance(b) + 0.1).contains(&(end - a).dot(along));
+                is_near.then(|| moved / along.perp_dot(way).abs())
+            })
+        });
+        sides.fold(0.0, f64::max)
+    };
+    let ends = |run: &EdgeRun| {
+        let [a, b] = run.ends.map(DVec2::from_array);
+        if a.distance(b) > 1e-3 { of_end([a, b]) + of_end([b, a]) } else { 0.0 }
+    };
+    runs.iter().map(ends).sum()
+}
+
 fn length(runs: &[EdgeRun]) -> f64 {
     runs.iter()
         .map(|run| (run.ends[0][0] - run.ends[1][0]).hypot(run.ends[0][1] - run.ends[1][1]))
@@ -100,18 +127,20 @@ fn judge(polygons: &[Vec<DVec3>], places: i32, dice: &mut Dice, counts: &mut Cou
     let exact = default.clone().with_tolerance(0.0);
     // As a reader of decimals builds it.
     let of_decimals = default.with_tolerance(4.0 * step);
-    // A unit is about sixty pixels. Lines on a face that is seen almost edge-on meet its sides at a small angle, so
-    // the last decimals move their ends by many times the tolerance.
     let kinds = [
-        (BspTree::build(polygons).unwrap(), exact.build(polygons).unwrap(), 0.02),
-        (BspTree::build(&single).unwrap(), exact.build(&single).unwrap(), 0.1),
-        (of_decimals.build(&decimals).unwrap(), exact.build(&decimals).unwrap(), 2e5 * step),
+        (BspTree::build(polygons).unwrap(), exact.build(polygons).unwrap()),
+        (BspTree::build(&single).unwrap(), exact.build(&single).unwrap()),
+        (of_decimals.build(&decimals).unwrap(), exact.build(&decimals).unwrap()),
     ];
-    for (kind, (tree, exactly, slack)) in kinds.into_iter().enumerate() {
+    for (kind, (tree, exactly)) in kinds.into_iter().enumerate() {
         let name = ["f64", "f32", "decimals"][kind];
-        let [found, expected] = [&tree, &exactly]
-            .map(|tree| length(&map_of(tree, &camera).crossings(Hidden::Skip).unwrap()));
-        counts.crossed[kind] += usize::from(expected > 10.0);
+        let [runs, exact_runs] =
+            [&tree, &exactly].map(|tree| map_of(tree, &camera).crossings(Hidden::Skip).unwrap());
+        let [found, expected] = [&runs, &exact_runs].map(|runs| length(runs));
+        // A unit is at most seventy pixels.
+        let moved = 70.0 * 4.0 * tree.stats().tolerance;
+        let slack = 0.02 + shift(&exact_runs, polygons, &camera, moved);
+        counts.crossed[kind] += usize::from(expected > 10.0 && slack < 2.0);
         assert!(
             (found - expected).abs() < slack,
             "{name}: {found} for {expected} from {eye:?}: {polygons:?}"
@@ -142,7 +171,7 @@ fn flat_ends_of_many_triangles_have_whole_crossings_and_no_edges_inside() {
         let mut dice = Dice(seed);
         judge(&prisms(&mut dice), 5, &mut dice, &mut counts);
     }
-    enough!(counts.crossed.iter().all(|&n| n > 60), counts.creases > 3000; "{counts:?}");
+    enough!(counts.crossed.iter().all(|&n| n > 50), counts.creases > 3000; "{counts:?}");
 }
 
 /// The first polygon lies on the plane of the third one, which cuts the second: the first is the largest, and the
