@@ -1,9 +1,10 @@
 //! Pieces of faces while the tree is built, and the cutting of a piece in two.
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use crate::Error;
-use crate::exact::{Faces, PreparedPlane, Side, Vertex, VertexKind, split};
+use crate::exact::{Faces, Outline, PreparedPlane, Side, Vertex, VertexKind, split};
 use crate::memory::{push, reserve};
 
 /// Moves the vertices of pieces together, without those between them, from `base` on in an arena. Their order stays.
@@ -132,6 +133,29 @@ impl Piece {
         plane.classify(faces, self.face, self.cut_vertices(arena))
     }
 
+    /// The side of a plane on which the piece lies, as if the tolerance were 0.
+    pub(crate) fn exact_side(
+        &self,
+        faces: &Faces,
+        plane: &PreparedPlane,
+        arena: &[Vertex],
+    ) -> Side {
+        match self.cut_vertices(arena) {
+            Some(cut) => plane.exact_side(faces, self.face, cut),
+            None => {
+                let corners: SmallVec<[Vertex; 4]> = Vertex::corners(faces, self.face).collect();
+                plane.exact_side(faces, self.face, &corners)
+            }
+        }
+    }
+
+    /// The rounded vertices.
+    pub(crate) fn outline(&self, faces: &Faces, arena: &[Vertex]) -> Outline {
+        let mut outline = Outline::new();
+        self.for_each_vertex(faces, arena, |p| outline.push(p));
+        outline
+    }
+
     /// Calls a function with the rounded position of each vertex, in lattice units.
     #[inline]
     pub(crate) fn for_each_vertex(
@@ -258,15 +282,20 @@ pub(crate) struct Splitter {
 }
 
 impl Splitter {
-    /// Cuts a piece that spans a plane. Appends the vertices of the two parts to the arena, and returns the
-    /// part in front and the part behind.
-    pub(crate) fn cut(
+    /// The rounded vertices of the parts of a piece that spans a plane: the part in front, and the part behind.
+    pub(crate) fn outlines(
         &mut self,
         faces: &Faces,
         plane: &PreparedPlane,
         piece: &Piece,
-        arena: &mut Vec<Vertex>,
-    ) -> Result<[Piece; 2], Error> {
+        arena: &[Vertex],
+    ) -> [Outline; 2] {
+        self.divide(faces, plane, piece, arena);
+        [&self.front, &self.back].map(|part| part.iter().map(Vertex::position).collect())
+    }
+
+    /// Cuts a piece that spans a plane, into `front` and `back`.
+    fn divide(&mut self, faces: &Faces, plane: &PreparedPlane, piece: &Piece, arena: &[Vertex]) {
         let Self { outline, front, back } = self;
         let vertices = piece.cut_vertices(arena).unwrap_or_else(|| {
             outline.clear();
@@ -276,6 +305,19 @@ impl Splitter {
         front.clear();
         back.clear();
         split(faces, plane, piece.face, vertices, front, back);
+    }
+
+    /// Cuts a piece that spans a plane. Appends the vertices of the two parts to the arena, and returns the
+    /// part in front and the part behind.
+    pub(crate) fn cut(
+        &mut self,
+        faces: &Faces,
+        plane: &PreparedPlane,
+        piece: &Piece,
+        arena: &mut Vec<Vertex>,
+    ) -> Result<[Piece; 2], Error> {
+        self.divide(faces, plane, piece, arena);
+        let Self { front, back, .. } = self;
         // The piece's own vertices stay behind as garbage until the arena is compacted or truncated.
         let start = arena.len();
         reserve(arena, front.len() + back.len())?;

@@ -247,9 +247,16 @@ impl PreparedPlane {
         let in_front = (0..count).any(|k| corner(k, band).is_gt());
         let behind = (0..count).any(|k| corner(k, -band).is_lt());
         let of_face = Side::of(in_front, behind);
-        let (Some(vertices), Side::Spanning) = (cut, of_face) else { return of_face };
-        // The face spans the plane by more than the tolerance, so its pieces are decided exactly. The pieces
-        // are not coplanar: a convex piece with an area lies in the plane only if its face does.
+        match (cut, of_face) {
+            // The face spans the plane by more than the tolerance, so its pieces are decided exactly. The pieces
+            // are not coplanar: a convex piece with an area lies in the plane only if its face does.
+            (Some(vertices), Side::Spanning) => self.exact_side(faces, face, vertices),
+            _ => of_face,
+        }
+    }
+
+    /// The side of the plane on which a piece of a face lies, as if the tolerance were 0.
+    pub(crate) fn exact_side(&self, faces: &Faces, face: u32, vertices: &[Vertex]) -> Side {
         let (mut in_front, mut behind) = (false, false);
         for vertex in vertices {
             let side = self.side(faces, face, vertex);

@@ -21,10 +21,6 @@ pub(crate) type Outline = SmallVec<[[f64; 3]; 8]>;
 /// The same points without one of their coordinates.
 type FlatOutline = SmallVec<[DVec2; 8]>;
 
-/// If outlines have more pairs of corners, they count as overlapping. Too small: planes give way without
-/// need. Too large: time.
-const MANY: usize = 1 << 12;
-
 impl Faces {
     /// Whether one face is larger than another, by the areas of their reference triangles, rounded: the larger
     /// face has the more certain plane. Of faces of equal size, the earlier face is larger.
@@ -65,13 +61,11 @@ impl Faces {
 
     /// Whether two coplanar convex outlines overlap by more than the tolerance, seen along an axis, given a face in
     /// their plane: no side of one has the other entirely outside (the separating axes of convex polygons). Neighbours
-    /// in a mesh, which share an edge, do not overlap. An outline of two points is a segment.
+    /// in a mesh, which share an edge, do not overlap. An outline of two points is a segment. Takes O(n) time for n
+    /// corners.
     pub(crate) fn overlap(&self, face: u32, outlines: [&Outline; 2]) -> bool {
-        let [a, b] = self.flat(face, outlines);
-        a.len() * b.len() > MANY || {
-            let margin = self.tolerance();
-            !has_outside(&a, &b, margin) && !has_outside(&b, &a, margin)
-        }
+        let ([a, b], margin) = (self.flat(face, outlines), self.tolerance());
+        !has_outside(&a, &b, margin) && !has_outside(&b, &a, margin)
     }
 
     /// Whether the first of two coplanar outlines lies in the second, which is convex, or beyond its sides by no more
@@ -110,22 +104,47 @@ impl PreparedPlane {
     }
 }
 
-/// Whether some side of a convex outline has no point of another outline inside by more than a margin.
+/// Whether some side of a convex outline has no point of another convex outline inside by more than a margin. From one
+/// side to the next, the point furthest inside moves on around the other outline (rotating calipers: Toussaint,
+/// “Solving geometric problems with the rotating calipers”, 1983).
 fn has_outside(outline: &[DVec2], other: &[DVec2], margin: f64) -> bool {
+    let same_turn = area(outline) * area(other) >= 0.0;
+    let step = if same_turn { 1 } else { other.len() - 1 };
+    let mut last: Option<(DVec2, usize)> = None;
     sides(outline).any(|[a, side]| {
-        let most = margin * side.length();
-        side != DVec2::ZERO && other.iter().all(|&p| side.perp_dot(p - a) <= most)
+        if side == DVec2::ZERO {
+            return false;
+        }
+        let inside = |point: usize| side.perp_dot(other[point] - a);
+        // After a sharp turn, rounding could hide in which direction the way inside leads.
+        let mut here = match last {
+            Some((before, point)) if before.dot(side) > 0.0 => point,
+            _ => (0..other.len()).max_by(|&p, &q| inside(p).total_cmp(&inside(q))).unwrap_or(0),
+        };
+        for _ in 0..other.len() {
+            let next = (here + step) % other.len();
+            if inside(next) < inside(here) {
+                break;
+            }
+            here = next;
+        }
+        last = Some((side, here));
+        inside(here) <= margin * side.length()
     })
+}
+
+/// Twice the signed area of an outline.
+fn area(outline: &[DVec2]) -> f64 {
+    // About the first point: about the origin, products of large coordinates would round a small area away.
+    let origin = outline.first().copied().unwrap_or_default();
+    let next = outline.iter().cycle().skip(1);
+    outline.iter().zip(next).map(|(a, b)| (*a - origin).perp_dot(*b - origin)).sum()
 }
 
 /// The sides of a convex outline, each with its first point and as a vector with the inside to its left.
 fn sides(outline: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
-    let next = || outline.iter().cycle().skip(1);
-    // About the first point: about the origin, products of large coordinates would round a small area away.
-    let origin = outline.first().copied().unwrap_or_default();
-    let area: f64 =
-        outline.iter().zip(next()).map(|(a, b)| (*a - origin).perp_dot(*b - origin)).sum();
-    outline.iter().zip(next()).map(move |(&a, &b)| [a, (b - a) * area.signum()])
+    let turn = area(outline).signum();
+    outline.iter().zip(outline.iter().cycle().skip(1)).map(move |(&a, &b)| [a, (b - a) * turn])
 }
 
 #[cfg(test)]
@@ -177,6 +196,47 @@ mod tests {
             let (faces, _) = Faces::new([wall, card], Some(24.0)).unwrap();
             assert_eq!(faces.are_coplanar(0, 1), height < 24.0, "{turn}, {height}");
         }
+    }
+
+    /// Outlines of few and of many corners, segments and points, in both directions, against all pairs of a side and a
+    /// point.
+    #[test]
+    fn outlines_overlap_as_all_pairs_of_sides_and_points_say() {
+        let mut random = crate::random::SplitMix64::new(8);
+        let mut found = [0; 2];
+        for round in 0..4000 {
+            let mut outline = || {
+                let count = [1, 2, 3, 4, 7, 40][random.next() as usize % 6];
+                let middle = DVec2::new(random.range(-1.0, 1.0), random.range(-1.0, 1.0));
+                let (size, flat) = (random.range(0.1, 1.0), random.range(0.0, 1.0));
+                let turn = DVec2::from_angle(random.range(0.0, 6.0));
+                let mut angles: Vec<f64> = (0..count).map(|_| random.range(0.0, 6.28)).collect();
+                angles.sort_by(f64::total_cmp);
+                if random.next() >> 63 == 0 {
+                    angles.reverse();
+                }
+                let corner = |&angle: &f64| {
+                    let corner = DVec2::from_angle(angle) * DVec2::new(1.0, flat.powi(8));
+                    (middle + turn.rotate(corner * size)) * f64::from(1 << 20)
+                };
+                angles.iter().map(corner).map(DVec2::round).collect::<Vec<_>>()
+            };
+            let [a, b] = [outline(), outline()];
+            let is_outside = |a: &[DVec2], b: &[DVec2]| {
+                let area: f64 = (2..a.len()).map(|i| (a[i - 1] - a[0]).perp_dot(a[i] - a[0])).sum();
+                (0..a.len()).any(|i| {
+                    let (from, to) = (a[i], a[(i + 1) % a.len()]);
+                    let side = (to - from) * if area < 0.0 { -1.0 } else { 1.0 };
+                    from != to && b.iter().all(|&p| side.perp_dot(p - from) <= 0.0)
+                })
+            };
+            for [a, b] in [[&a, &b], [&b, &a]] {
+                let expected = is_outside(a, b);
+                assert_eq!(has_outside(a, b, 0.0), expected, "{round}: {a:?} {b:?}");
+                found[usize::from(expected)] += 1;
+            }
+        }
+        assert!(found.iter().all(|&count| count > 1000), "{found:?}");
     }
 
     /// Small cards far from the origin of the grid.

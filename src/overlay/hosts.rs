@@ -9,14 +9,15 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::region::Ground;
 use crate::build::piece::Piece;
 use crate::error::Error;
-use crate::exact::{Faces, Outline, PlaneId, Side, Vertex};
+use crate::exact::{Faces, Outline, PlaneId, PreparedPlane, Side, Vertex};
 use crate::memory::{place, push};
 use crate::progress::Watch;
 use crate::tree::bounds::outwards;
 use crate::tree::node::Ranges;
-use crate::tree::{BspTree, Flat, Fragment};
+use crate::tree::{Flat, Fragment};
 
 /// The *hosts* of each shape: the fragments of a tree that are coplanar with the shape and overlap it. They are found
 /// when a shape is first asked for.
@@ -25,8 +26,29 @@ pub(super) struct Hosts {
     /// The fragments of one shape after the other, and of each shape those of the largest polygon first: one number for
     /// each pair of a shape and a fragment on which it lies.
     fragments: Vec<u32>,
-    /// For each shape the part of the tree that was searched last, and the range of the shape's fragments there.
-    of_shapes: Vec<Option<[Range<u32>; 2]>>,
+    of_shapes: Vec<Option<Known>>,
+}
+
+/// The hosts of a shape in the part of a tree that was searched last.
+#[derive(Clone)]
+struct Known {
+    /// The number of the [`Ground`].
+    ground: u32,
+    part: Range<u32>,
+    /// The place of the hosts in the list of all.
+    hosts: Range<u32>,
+}
+
+/// A node of a tree that shapes descend: the fragments on its plane and on its sides.
+pub(super) struct At<'a> {
+    pub(super) ground: Ground<'a>,
+    /// The faces of the overlay.
+    pub(super) faces: &'a Faces,
+    /// The first of these that is the overlay's own.
+    pub(super) first: u32,
+    pub(super) plane: &'a PreparedPlane,
+    pub(super) node: &'a Ranges,
+    pub(super) watch: &'a Watch<'a>,
 }
 
 impl Hosts {
@@ -37,42 +59,62 @@ impl Hosts {
         self.of_shapes.resize(shapes, None);
     }
 
-    /// The side of a node's plane on which the largest host of a piece is, among the node's fragments; `None` without a
-    /// host. `side` is the piece's own side of the plane.
+    /// The side of a node's plane on which the largest host of a piece is; `None` without a host. `side` is the piece's
+    /// own side. If the plane has cut the host and the piece overlaps both parts, the piece's side is exact.
     pub(super) fn side(
         &mut self,
-        (tree, faces): (&BspTree, &Faces),
+        at: &At<'_>,
         (piece, arena): (&Piece, &[Vertex]),
-        (plane, side): (PlaneId, Side),
-        node: &Ranges,
-        watch: &Watch<'_>,
+        side: Side,
     ) -> Result<Option<Side>, Error> {
-        let Ranges { own, front, back } = node;
+        let &At { ground, faces, plane, watch, .. } = at;
+        let Ranges { own, front, back } = at.node;
         let all = own.start..front.end.max(back.end);
         let Self { fragments, of_shapes } = self;
-        let known = &mut of_shapes[piece.face as usize - tree.faces.len()];
-        let is_part = |part: &Range<u32>| part.start <= all.start && all.end <= part.end;
-        let range = match known {
-            Some([part, range]) if is_part(part) => range.clone(),
+        let known = &mut of_shapes[(piece.face - at.first) as usize];
+        let is_part = |known: &Known| {
+            known.ground == ground.number()
+                && known.part.start <= all.start
+                && all.end <= known.part.end
+        };
+        let outline = piece.outline(faces, arena);
+        let hosts = match known {
+            Some(known) if is_part(known) => known.hosts.clone(),
             _ => {
-                if side == Side::Coplanar {
-                    let mut outline = Outline::new();
-                    piece.for_each_vertex(faces, arena, |p| outline.push(p));
-                    if is_inside(tree, faces, &outline, plane, own) {
-                        return Ok(Some(side));
-                    }
+                if side == Side::Coplanar && at.is_inside(&outline) {
+                    return Ok(Some(side));
                 }
                 let start = fragments.len();
-                find((tree, all.clone()), faces, piece.face, fragments, watch)?;
-                let range = place(start)?..place(fragments.len())?;
-                *known = Some([all, range.clone()]);
-                range
+                at.find(all.clone(), piece.face, &outline, fragments)?;
+                let hosts = place(start)?..place(fragments.len())?;
+                *known = Some(Known { ground: ground.number(), part: all, hosts: hosts.clone() });
+                hosts
             }
         };
-        let hosts = &fragments[range.start as usize..range.end as usize];
+        let hosts = &fragments[hosts.start as usize..hosts.end as usize];
         let parts = [(own, Side::Coplanar), (front, Side::Front), (back, Side::Back)];
-        let side_of = |host| parts.iter().find(|(part, _)| part.contains(host)).map(|part| part.1);
-        Ok(hosts.iter().find_map(side_of))
+        let mut largest: Option<(u32, Side)> = None;
+        for &host in hosts {
+            let Some((_, side)) = parts.iter().find(|(part, _)| part.contains(&host)) else {
+                continue;
+            };
+            let face = ground.face(host);
+            match largest {
+                Some((of, _)) if of != face => break,
+                Some((_, first)) if first == *side => continue,
+                _ => {}
+            }
+            watch.work(1)?;
+            // The shape may have been cut since its hosts were found.
+            if !faces.overlap(face, [&outline, &vertices(ground.fragment(faces, host))]) {
+                continue;
+            }
+            if largest.is_some() {
+                return Ok(Some(piece.exact_side(faces, plane, arena)));
+            }
+            largest = Some((face, *side));
+        }
+        Ok(largest.map(|(_, side)| side))
     }
 }
 
@@ -80,66 +122,56 @@ impl Hosts {
 /// without need. Too large: time.
 const FEW: usize = 8;
 
-/// Whether a piece lies within a polygon that has a given plane, among the fragments on that plane. Then the polygon is a
-/// host, and most often the only one: if a larger polygon that is coplanar with it and overlaps it left the plane, the
-/// tree would have that polygon's plane instead.
-fn is_inside(
-    tree: &BspTree,
-    faces: &Faces,
-    outline: &Outline,
-    plane: PlaneId,
-    on_plane: &Range<u32>,
-) -> bool {
-    on_plane.clone().take(FEW).any(|number| {
-        let fragment = tree.fragment(number);
-        PlaneId::face(fragment.face()) == plane
-            && faces.is_inside(fragment.face(), [outline, &vertices(fragment)])
-    })
-}
+impl At<'_> {
+    /// Whether a piece lies within a polygon that has the node's plane. Then the polygon is a host, and most often the
+    /// only one: if a larger polygon that is coplanar with it and overlaps it left the plane, the tree would usually
+    /// have that polygon's plane instead.
+    fn is_inside(&self, outline: &Outline) -> bool {
+        self.node.own.clone().take(FEW).any(|number| {
+            let fragment = self.ground.fragment(self.faces, number);
+            PlaneId::face(fragment.face()) == self.plane.id()
+                && self.faces.is_inside(fragment.face(), [outline, &vertices(fragment)])
+        })
+    }
 
-/// Appends the fragments of a part of a tree that are coplanar with a shape and overlap it, those of the largest polygon
-/// first.
-fn find(
-    (tree, mut part): (&BspTree, Range<u32>),
-    faces: &Faces,
-    shape: u32,
-    found: &mut Vec<u32>,
-    watch: &Watch<'_>,
-) -> Result<(), Error> {
-    let outline = outline(faces, shape);
-    let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    let union = |[low, high]: [DVec3; 2], &corner: &[f64; 3]| {
-        [low.min(corner.into()), high.max(corner.into())]
-    };
-    let [low, high] = outline.iter().fold(nothing, union);
-    let reach = DVec3::splat(2.0 * faces.tolerance());
-    let around = outwards((low - reach).to_array(), (high + reach).to_array());
-    let is_apart = |bounds: &Flat| {
-        (0..3).any(|axis| bounds[axis] > around[axis + 3] || around[axis] > bounds[axis + 3])
-    };
-    let boxes = tree.boxes();
-    let next = |part: &mut _| boxes.next_block(part, |block| is_apart(block).then_some(false));
-    let start = found.len();
-    while let Some((block, _)) = next(&mut part) {
-        watch.work(block.len())?;
-        for number in block {
-            let fragment = tree.fragment(number);
+    /// Appends the fragments of a part of the tree that are coplanar with a shape and overlap a piece of it, those of
+    /// the largest polygon first.
+    fn find(
+        &self,
+        mut part: Range<u32>,
+        shape: u32,
+        outline: &Outline,
+        found: &mut Vec<u32>,
+    ) -> Result<(), Error> {
+        let &Self { ground, faces, watch, .. } = self;
+        let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let union = |[low, high]: [DVec3; 2], &corner: &[f64; 3]| {
+            [low.min(corner.into()), high.max(corner.into())]
+        };
+        let [low, high] = outline.iter().fold(nothing, union);
+        let reach = DVec3::splat(2.0 * faces.tolerance());
+        let around = outwards((low - reach).to_array(), (high + reach).to_array());
+        let is_apart = |bounds: &Flat| {
+            (0..3).any(|axis| bounds[axis] > around[axis + 3] || around[axis] > bounds[axis + 3])
+        };
+        let boxes = ground.boxes(faces);
+        let next = |part: &mut _| boxes.next_block(part, |block| is_apart(block).then_some(false));
+        let start = found.len();
+        while let Some((block, _)) = next(&mut part) {
+            watch.work(1)?;
+            // A block that is not inside is a single fragment.
+            let fragment = ground.fragment(faces, block.start);
             if faces.are_coplanar(fragment.face(), shape)
-                && faces.overlap(fragment.face(), [&outline, &vertices(fragment)])
+                && faces.overlap(fragment.face(), [outline, &vertices(fragment)])
             {
-                push(found, number)?;
+                push(found, block.start)?;
             }
         }
+        found[start..].sort_unstable_by(|&a, &b| {
+            faces.largest_first(ground.face(a), ground.face(b)).then(a.cmp(&b))
+        });
+        Ok(())
     }
-    found[start..].sort_unstable_by(|&a, &b| {
-        let [one, other] = [a, b].map(|number| tree.records[number as usize].face);
-        faces.largest_first(one, other).then(a.cmp(&b))
-    });
-    Ok(())
-}
-
-fn outline(faces: &Faces, shape: u32) -> Outline {
-    faces.corners(shape)[..faces.reach(shape)].into()
 }
 
 fn vertices(fragment: Fragment<'_>) -> Outline {

@@ -3,6 +3,7 @@
 mod hosts;
 mod order;
 pub(crate) mod place;
+mod region;
 mod replace;
 mod thin;
 

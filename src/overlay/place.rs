@@ -3,20 +3,20 @@
 
 use std::ops::Range;
 
-use glam::{DVec3, Vec4};
+use glam::DVec3;
 
-use super::hosts::Hosts;
-use super::order::{Branch, InsertionTree, Place, SlotSide};
+use super::hosts::{At, Hosts};
+use super::order::{InsertionTree, Place, SlotSide};
+use super::region::{CellTree, Ground, Opened, Region, Whose};
 use super::thin::{Anchors, between};
-use crate::build::choose::{NearPiece, Set, follow_larger};
+use crate::build::choose::{NearPiece, NearSet, follow_larger};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::error::{Error, Kind};
-use crate::exact::{Faces, PlaneId, PreparedPlane, Side, StoredVertex, Vertex};
+use crate::exact::{Faces, PreparedPlane, Side, StoredVertex, Vertex};
 use crate::progress::Watch;
 use crate::tree::BspTree;
-use crate::tree::node::{MOST_FRAGMENTS, NodeRecord, Ranges, Sizes, finish, make_room};
-use crate::tree::order::eye::rounded;
+use crate::tree::node::MOST_FRAGMENTS;
 use crate::tree::parts::{Parts, Record};
 
 /// A set of at least this many pieces moves to one side of a plane at once if the set's box lies on that
@@ -142,20 +142,13 @@ impl Work<'_> {
         }
         let opened = Opened::of(region, self.tree, &self.placer.cell, self.faces);
         let opened = if opened.is_some() { opened } else { self.enter_cell(start, place)? };
-        let Some(Opened { mut branch, own, sides: [in_front, behind] }) = opened else {
-            return Ok(());
-        };
-        let prepared = PreparedPlane::new(self.faces, branch.plane);
+        let Some(opened) = opened else { return Ok(()) };
+        let prepared = PreparedPlane::new(self.faces, opened.branch.plane);
         let side = self.side_of_all(start, crowd, &prepared);
         if side.is_none() {
-            let [own, front, back] =
-                [&own, &in_front.fragments, &behind.fragments].map(Range::clone);
-            let may_have_hosts = in_front.of == Whose::Tree
-                && self.faces.tolerance() > 0.0
-                && !(own.is_empty() && front.is_empty() && back.is_empty());
-            let node = may_have_hosts.then_some(Ranges { own, front, back });
-            self.divide(start, &prepared, node.as_ref())?;
+            self.divide(start, &prepared, &opened)?;
         }
+        let Opened { mut branch, own, sides: [in_front, behind] } = opened;
         let own = if in_front.of == Whose::Cell { own } else { 0..0 };
         branch.pieces = self.store_all(own);
         let number = self.insertions.push(place, branch);
@@ -195,36 +188,41 @@ impl Work<'_> {
     }
 
     /// Divides the topmost set of the stack: pieces behind stay on the stack, pieces in front go to `front`,
-    /// and pieces on the plane to `own`. `node` are the tree's fragments on the plane and on its sides, if any: a piece
-    /// near the plane follows the polygon on which it lies, in the tree ([`Hosts`]) or in the set.
+    /// and pieces on the plane to `own`. A piece near the plane follows the polygon on which it lies, in the set
+    /// ([`follow_larger`]) or in the tree ([`Hosts`]).
     fn divide(
         &mut self,
         start: usize,
         prepared: &PreparedPlane,
-        node: Option<&Ranges>,
+        opened: &Opened,
     ) -> Result<(), Error> {
-        let Placer { pieces, arena, front, own, sides, near, splitter, hosts, .. } =
+        let Placer { cell, pieces, arena, front, own, sides, near, splitter, hosts, .. } =
             &mut *self.placer;
         let Self { tree, faces, watch, .. } = *self;
+        let ground = match opened.sides[0].of {
+            Whose::Tree => Ground::Tree(tree),
+            Whose::Cell => Ground::Cell(cell),
+        };
+        let (node, first) = (opened.ranges(), tree.faces.len() as u32);
+        let may_follow = faces.tolerance() > 0.0
+            && !(node.own.is_empty() && node.front.is_empty() && node.back.is_empty());
         near.clear();
         sides.clear();
         for (piece, i) in pieces[start..].iter().zip(0..) {
             let cut = piece.cut_vertices(arena);
             let (mut side, reaches) = prepared.classify_and_reach(faces, piece.face, cut);
-            if let Some(node) = node
-                && reaches
-                && prepared.stays_near(faces, piece.face, cut)
-            {
-                let on = (prepared.id(), side);
-                let of_host = hosts.side((tree, faces), (piece, arena), on, node, watch)?;
-                near.push(NearPiece { piece: i, is_decided: of_host.is_some() });
-                side = of_host.unwrap_or(side);
+            if may_follow && reaches {
+                let is_within = prepared.stays_near(faces, piece.face, cut);
+                near.push(NearPiece { piece: i, is_within });
+                if is_within {
+                    let at = At { ground, faces, first, plane: prepared, node: &node, watch };
+                    side = hosts.side(&at, (piece, arena), side)?.unwrap_or(side);
+                }
             }
             sides.push(side);
         }
-        if !near.is_empty() {
-            follow_larger(&Set::new(faces, &pieces[start..], arena), near, sides, watch)?;
-        }
+        let set = NearSet { faces, pieces: &pieces[start..], arena, plane: prepared };
+        follow_larger(&set, near, sides, splitter, watch)?;
         let mut back = start;
         for (i, &side) in (start..).zip(&*sides) {
             let piece = pieces[i];
@@ -333,111 +331,6 @@ fn add(
     records.push(Record { face, vertices: vertices.len() as u32 });
     vertices.extend(vertex_ids);
     positions.extend(places);
-}
-
-/// A part of a tree: the fragments of a subtree, or of a leaf.
-#[derive(Clone, Debug)]
-struct Region {
-    of: Whose,
-    node: Option<usize>,
-    fragments: Range<u32>,
-}
-
-/// The tree that a region is a part of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Whose {
-    /// The overlay's tree, which is not changed.
-    Tree,
-    /// The small tree of the polygons that meet in one cell of the overlay's tree.
-    Cell,
-}
-
-impl Region {
-    /// A cell without fragments.
-    const EMPTY: Self = Self { of: Whose::Tree, node: None, fragments: 0..0 };
-
-    /// The root of a tree of `nodes` nodes and `fragments` fragments.
-    fn root(of: Whose, nodes: usize, fragments: usize) -> Self {
-        Self { of, node: (nodes > 0).then_some(0), fragments: 0..fragments as u32 }
-    }
-
-    /// Whether the region has polygons that are not placed yet.
-    fn has_pieces(&self) -> bool {
-        self.of == Whose::Cell && !self.fragments.is_empty()
-    }
-}
-
-/// The small tree of the polygons in a cell, while it cuts lines and points.
-#[derive(Debug, Default)]
-struct CellTree {
-    nodes: Vec<NodeRecord>,
-    sizes: Vec<Sizes>,
-    parts: Parts,
-}
-
-impl CellTree {
-    /// Replaces the tree, and returns the whole tree as a region.
-    fn fill(&mut self, parts: Parts) -> Result<Region, Error> {
-        make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
-        finish(parts.nodes.iter().copied(), &mut self.sizes, &mut self.nodes);
-        self.parts = parts;
-        Ok(Region::root(Whose::Cell, self.nodes.len(), self.parts.records.len()))
-    }
-}
-
-/// A region's plane, and the regions on both sides of the plane, without pieces.
-struct Opened {
-    branch: Branch,
-    /// The fragments on the plane.
-    own: Range<u32>,
-    sides: [Region; 2],
-}
-
-impl Opened {
-    /// A plane in a cell without fragments.
-    fn empty(faces: &Faces, plane: PlaneId) -> Self {
-        Self::new(rounded(faces, plane), plane, 0..0, [Region::EMPTY; 2])
-    }
-
-    #[inline]
-    fn new(rounded: Vec4, plane: PlaneId, own: Range<u32>, sides: [Region; 2]) -> Self {
-        // Fragments of a cell are pieces, which are attached one by one.
-        let of_tree = |fragments: &Range<u32>| match sides[0].of {
-            Whose::Tree => fragments.len(),
-            Whose::Cell => 0,
-        };
-        let [front, back] = sides.each_ref().map(|side| SlotSide::empty(of_tree(&side.fragments)));
-        let on_plane = of_tree(&own) as u32;
-        let pieces = SlotSide::empty(0);
-        let branch = Branch { rounded, plane, own: on_plane, pieces, front, back };
-        Self { branch, own, sides }
-    }
-
-    /// Opens a region; `None` for an empty cell. The plane of a leaf is its fragment's plane, so that no
-    /// piece crosses the fragment.
-    #[inline]
-    fn of(region: Region, tree: &BspTree, cell: &CellTree, faces: &Faces) -> Option<Self> {
-        let Region { of, node, fragments: all } = region;
-        let (nodes, records) = match of {
-            Whose::Tree => (&tree.nodes, &tree.records),
-            Whose::Cell => (&cell.nodes, &cell.parts.records),
-        };
-        let Some(index) = node else {
-            let plane = PlaneId::face(records[all.clone().next()? as usize].face);
-            let nothing = Region { of, node: None, fragments: all.end..all.end };
-            let sides = [nothing.clone(), nothing];
-            return Some(Self::new(rounded(faces, plane), plane, all, sides));
-        };
-        let node = &nodes[index];
-        let Ranges { own, front, back } = node.ranges(all);
-        let front = Region { of, node: node.front_node(index), fragments: front };
-        let back = Region { of, node: node.back_node(index), fragments: back };
-        let rounded = match of {
-            Whose::Tree => tree.planes.get(index),
-            Whose::Cell => rounded(faces, node.plane),
-        };
-        Some(Self::new(rounded, node.plane, own, [front, back]))
-    }
 }
 
 /// A segment of a line before any cut.

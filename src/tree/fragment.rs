@@ -32,8 +32,12 @@ impl BspTree {
     ///
     /// If no fragment has this number.
     pub fn fragment(&self, index: u32) -> Fragment<'_> {
-        let Self { faces, records, vertices, positions, .. } = self;
-        Fragment::new(faces, Stored { records, vertices, positions }, index as usize, index)
+        Fragment::new(&self.faces, self.stored(), index as usize, index)
+    }
+
+    pub(crate) fn stored(&self) -> Stored<'_> {
+        let Self { records, vertices, positions, .. } = self;
+        Stored { records, vertices, positions }
     }
 }
 

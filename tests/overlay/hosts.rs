@@ -118,7 +118,11 @@ const TAU_OF_SQUARES: f64 = 1e-3;
 
 /// The numbers of polygons, `l` and `p` for lines and points, in the order from below or from above.
 fn painted(tree: &BspTree, overlay: &Overlay, z: f64) -> Vec<String> {
-    let view = Viewpoint::direction([0.1, 0.2, z]);
+    names(tree, overlay, Viewpoint::direction([0.1, 0.2, z]))
+}
+
+/// The same from any viewpoint.
+fn names(tree: &BspTree, overlay: &Overlay, view: Viewpoint) -> Vec<String> {
     let name = |shape: Shape<'_>| match shape {
         Shape::Fragment(fragment) => fragment.polygon().to_string(),
         Shape::Segment(_) => "l".to_owned(),
@@ -219,6 +223,95 @@ fn a_plane_that_cuts_the_larger_shape_leaves_the_smaller_one_whole() {
         let sum: f64 = areas.sum();
         assert!((sum - 1.0).abs() < 1e-6, "{x}: {sum}");
     }
+}
+
+/// The tree's first plane cuts a host at a small angle. A card at the cut lies on both parts, and entirely within the
+/// tolerance of the plane.
+#[test]
+fn a_plane_that_cuts_a_host_cuts_the_shape_on_both_parts() {
+    let t = TAU_OF_SQUARES;
+    let tilted = |square: [DVec3; 4], lift: f64| {
+        square.map(|p| p.with_z(t * (0.8 * (p.x - 7.5) + lift))).to_vec()
+    };
+    let still = [square(30.0, 30.0, 1.0, 0.0).to_vec(), tilted(square(0.0, 0.0, 15.0, 0.0), 0.0)];
+    let options = BuildOptions::DEFAULT.with_tolerance(t).with_heuristic(Heuristic::First);
+    let tree = options.build(still).expect("a tree");
+    assert_eq!(tree.len(), 3);
+    let mut overlay = Overlay::new(&tree);
+    for lift in [0.0, 0.3, -0.3] {
+        let card = tilted(square(7.0, 2.0, 1.0, 0.0), lift);
+        for z in [1.0, -1.0] {
+            overlay.replace(&tree, [&card]).expect("on the grid");
+            assert_eq!(painted(&tree, &overlay, z), ["1", "2", "0", "1", "2"], "{lift}");
+            let line = Shapes::NONE.with_lines([[card[0], card[2]]]);
+            overlay.replace_with(&tree, line).expect("on the grid");
+            assert_eq!(painted(&tree, &overlay, z), ["1", "l", "0", "1", "l"], "{lift}");
+        }
+    }
+}
+
+/// A disc of many corners lies on a square. The box of a larger triangle beside it contains the disc.
+#[test]
+fn a_polygon_of_many_corners_has_its_own_host() {
+    let t = TAU_OF_SQUARES;
+    let triangle = [[30.0, 0.0], [30.0, 30.0], [0.0, 30.0]].map(|[x, y]| dvec3(x, y, 1.6 * t));
+    let still = [
+        square(-9.0, -9.0, 1.0, 0.0).to_vec(),
+        square(0.0, 0.0, 4.0, 0.9 * t).to_vec(),
+        triangle.to_vec(),
+    ];
+    let bounds = [DVec3::splat(-50.0), DVec3::splat(50.0)];
+    let options = BuildOptions::DEFAULT.with_tolerance(t).with_bounds(bounds[0], bounds[1]);
+    let tree = options.with_heuristic(Heuristic::First).build(still).expect("a tree");
+    let mut overlay = Overlay::new(&tree);
+    for corners in [8, 2000] {
+        let corner = |k: usize| {
+            let angle = k as f64 / corners as f64 * TAU;
+            dvec3(2.0 + angle.cos(), 2.0 + angle.sin(), 1.2 * t)
+        };
+        overlay.replace(&tree, [(0..corners).map(corner).collect::<Vec<_>>()]).expect("a disc");
+        for z in [1.0, -1.0] {
+            let order = painted(&tree, &overlay, z);
+            assert!(is_after(&order, "3", "1"), "{corners} {z}: {order:?}");
+        }
+    }
+}
+
+/// A line on a large square of the overlay, beside small squares, all in an empty tree: in `f32`, the large square
+/// leaves the planes of the small ones.
+#[test]
+fn a_line_on_a_polygon_of_the_overlay_comes_after_it() {
+    let mut near = 0;
+    for seed in seeds(300) {
+        let dice = &mut Dice(seed);
+        let mut angle = || dice.range(0.0, TAU);
+        let turn = DQuat::from_euler(EulerRot::XYZ, angle(), angle(), angle());
+        let middle = turn * DVec3::Z * dice.range(-2.0, 2.0);
+        let at = |x: f64, y: f64| (middle + turn * dvec3(x, y, 0.0)).as_vec3();
+        let square = |x: f64, y: f64, size: f64| {
+            [at(x, y), at(x + size, y), at(x + size, y + size), at(x, y + size)]
+        };
+        let n = 4 + dice.below(20);
+        let size = 1.0 / n as f64;
+        let small = |i: usize| square((i % n) as f64 * size - 1.0, (i / n) as f64 * size, size);
+        let mut polygons: Vec<_> = (0..n * n).step_by(1 + dice.below(4)).map(small).collect();
+        polygons.push(square(0.0, 0.0, 1.0));
+        let mut inside = || at(dice.range(0.01, 0.2), dice.range(0.05, 0.95));
+        let (line, point) = ([inside(), inside()], inside());
+        let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-5.0), DVec3::splat(5.0));
+        let tree = room.build([[DVec3::ZERO; 3]; 0]).expect("a tree");
+        let mut overlay = Overlay::new(&tree);
+        let shapes = Shapes::NONE.with_polygons(&polygons).with_lines([line]);
+        overlay.replace_with(&tree, shapes.with_points([point])).expect("on the grid");
+        let large = (polygons.len() - 1).to_string();
+        for z in [1.0, -1.0] {
+            let view = Viewpoint::direction(turn * dvec3(0.1, 0.2, z));
+            let order = names(&tree, &overlay, view);
+            assert!(is_after(&order, "l", &large) && is_after(&order, "p", &large), "{seed} {z}");
+            near += usize::from(order.last().is_some_and(|last| last != "p"));
+        }
+    }
+    enough!(near > 30; "{near}");
 }
 
 /// How the corners of a wall and of shapes on it are given.

@@ -17,6 +17,7 @@ mod oracle;
 mod same;
 mod sight;
 mod slivers;
+mod stacks;
 mod tiling;
 mod walks;
 

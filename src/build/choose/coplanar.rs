@@ -1,14 +1,16 @@
 //! Keeps coplanar pieces together: a plane that would separate two of them gives way to the plane of the
 //! larger one.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::ChooseContext;
 use super::set::Set;
 use crate::Error;
-use crate::build::piece::{Division, Piece};
-use crate::exact::{Outline, PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side};
+use crate::build::piece::{Division, Piece, Splitter};
+use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side, Vertex};
 use crate::progress::Watch;
 
 /// The largest number of faces whose planes are tried, including the first plane if it is a face's. Too small:
@@ -87,7 +89,7 @@ pub(super) fn larger(
     watch: &Watch<'_>,
 ) -> Result<Option<u32>, Error> {
     let (faces, tolerance) = (set.faces, set.faces.tolerance());
-    let on = SortedPieces::of(set, on);
+    let on = SortedPieces::of(set.pieces, on);
     let own = on
         .pieces
         .iter()
@@ -100,16 +102,12 @@ pub(super) fn larger(
         if !is_cut && !on.around.touches(other, tolerance) {
             continue;
         }
-        let rounded = RoundedNormal::through(faces.triangle(other.face));
-        let other_normal = DVec3::from_array(rounded.normal);
-        let sine = normal.cross(other_normal).length_squared();
-        if sine > STEEP * STEEP * normal.length_squared() * other_normal.length_squared() {
+        if is_steep(faces, other.face, normal, STEEP) {
             continue;
         }
-        let touching = on.touching(set, other, tolerance);
-        watch.work(touching.len())?;
+        let mut compared = 0;
+        let touching = on.touching(set.pieces, other, tolerance).inspect(|_| compared += 1);
         let touching = touching
-            .iter()
             .filter(|&&piece| Bounds::of(&set.pieces[piece as usize]).touches(other, tolerance));
         // The set's own plane cuts no coplanar piece, wherever that is.
         for &piece in touching.chain(own.filter(|_| is_cut)) {
@@ -126,66 +124,86 @@ pub(super) fn larger(
             {
                 continue;
             }
-            if is_cut || overlap(set, large, small) {
+            if is_cut || overlap(faces, set.arena, large, small) {
                 best = Some(large.face);
             }
         }
+        watch.work(compared)?;
     }
     Ok(best)
 }
 
-/// A piece of a set that lies within twice the tolerance of a plane.
+/// A piece of a set that comes within twice the tolerance of a plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearPiece {
     /// Its number in the set.
     pub(crate) piece: u32,
-    /// Whether a polygon outside the set decided its side.
-    pub(crate) is_decided: bool,
+    /// Whether all of it is within that distance.
+    pub(crate) is_within: bool,
 }
 
-/// Moves pieces `near` a plane, unless their sides are decided, to the side of the largest piece that is coplanar with
-/// the piece and overlaps it, unless the plane cuts that piece.
+/// Pieces beside a plane.
+pub(crate) struct NearSet<'a> {
+    pub(crate) faces: &'a Faces,
+    pub(crate) pieces: &'a [Piece],
+    pub(crate) arena: &'a [Vertex],
+    pub(crate) plane: &'a PreparedPlane,
+}
+
+/// Moves pieces that are entirely `near` a plane to the side of the largest polygon of the set that is coplanar with
+/// the piece and overlaps it. If the plane cuts that polygon and the piece overlaps both parts, the plane cuts the
+/// piece too, however near it is.
 pub(crate) fn follow_larger(
-    set: &Set<'_>,
-    near: &mut [NearPiece],
+    set: &NearSet<'_>,
+    near: &mut Vec<NearPiece>,
     sides: &mut [Side],
+    splitter: &mut Splitter,
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
-    let side = |sides: &[Side], near: &NearPiece| sides[near.piece as usize];
-    if near.windows(2).all(|two| side(sides, &two[0]) == side(sides, &two[1])) {
+    let side = |near: &NearPiece| sides[near.piece as usize];
+    if near.windows(2).all(|two| side(&two[0]) == side(&two[1])) {
         return Ok(());
     }
-    let (faces, pieces, tolerance) = (set.faces, set.pieces, set.faces.tolerance());
-    let face = |piece: u32| pieces[piece as usize].face;
+    let &NearSet { faces, pieces, arena, plane } = set;
+    let (face, tolerance) = (|piece: u32| pieces[piece as usize].face, faces.tolerance());
+    let is_leader = |near: &NearPiece| {
+        faces.has_area(face(near.piece))
+            && (near.is_within || !is_steep(faces, face(near.piece), plane.normal(), 2.0 * STEEP))
+    };
+    let leaders: SmallVec<[u32; FEW]> =
+        near.iter().filter(|near| is_leader(near)).map(|near| near.piece).collect();
+    let leaders = SortedPieces::of(pieces, &leaders);
+    near.retain(|near| near.is_within);
     near.sort_unstable_by(|a, b| {
         faces.largest_first(face(a.piece), face(b.piece)).then(a.piece.cmp(&b.piece))
     });
-    let numbers: Vec<u32> = near.iter().map(|near| near.piece).collect();
-    let sorted = SortedPieces::of(set, &numbers);
-    for &NearPiece { piece: small, is_decided } in near.iter() {
-        if is_decided {
-            continue;
-        }
+    for &NearPiece { piece: small, .. } in &*near {
         let piece = &pieces[small as usize];
-        let touching = sorted.touching(set, piece, tolerance);
-        watch.work(touching.len())?;
-        let mut largest = None;
-        for &other in touching {
-            let is_larger = |than: u32| faces.largest_first(face(other), face(than)).is_lt();
-            if Bounds::of(&pieces[other as usize]).touches(piece, tolerance)
-                && is_larger(largest.unwrap_or(small))
+        let mut largest: Option<u32> = None;
+        for &other in leaders.touching(pieces, piece, tolerance) {
+            watch.work(1)?;
+            if faces.largest_first(face(other), face(largest.unwrap_or(small))).is_lt()
+                && Bounds::of(&pieces[other as usize]).touches(piece, tolerance)
                 && faces.are_coplanar(face(other), face(small))
-                && overlap(set, &pieces[other as usize], piece)
+                && overlap(faces, arena, &pieces[other as usize], piece)
             {
                 largest = Some(other);
             }
         }
-        // A plane that cuts the larger piece need not meet the smaller one.
-        if let Some(side) = largest.map(|largest| sides[largest as usize])
-            && side != Side::Spanning
-        {
-            sides[small as usize] = side;
-        }
+        let Some(largest) = largest else { continue };
+        sides[small as usize] = match sides[largest as usize] {
+            Side::Spanning => {
+                let largest = &pieces[largest as usize];
+                let outline = piece.outline(faces, arena);
+                let parts = splitter.outlines(faces, plane, largest, arena);
+                match parts.map(|part| faces.overlap(largest.face, [&part, &outline])) {
+                    [true, false] => Side::Front,
+                    [false, true] => Side::Back,
+                    _ => piece.exact_side(faces, plane, arena),
+                }
+            }
+            side => side,
+        };
     }
     Ok(())
 }
@@ -194,6 +212,13 @@ pub(crate) fn follow_larger(
 /// (Only pieces less than twenty times as wide as the tolerance lie on planes at larger angles.) Too small:
 /// wider pieces lose input order. Too large: neighbours in a mesh are examined in vain.
 const STEEP: f64 = 0.1;
+
+/// Whether a face is at an angle of more than a given sine to a plane with a normal.
+fn is_steep(faces: &Faces, face: u32, normal: DVec3, sine: f64) -> bool {
+    let other = DVec3::from_array(RoundedNormal::through(faces.triangle(face)).normal);
+    let cross = normal.cross(other).length_squared();
+    cross > sine * sine * normal.length_squared() * other.length_squared()
+}
 
 /// A box.
 #[derive(Clone, Copy)]
@@ -228,52 +253,69 @@ impl Bounds {
 /// Lists of at most this many pieces are not sorted. Too small: time to sort. Too large: time to compare all.
 const FEW: usize = 32;
 
-/// Some pieces, in the order of their least coordinates along an axis if there are many.
+/// Some pieces, divided by size and sorted along an axis if there are many: those that touch a piece are found without
+/// a comparison of all.
 struct SortedPieces {
     pieces: SmallVec<[u32; FEW]>,
     around: Bounds,
     axis: usize,
+    /// The pieces of about one size along the axis, in the order of their least coordinates.
+    classes: SmallVec<[Class; 1]>,
+}
+
+/// Pieces of about one size.
+struct Class {
+    range: Range<usize>,
     /// The largest size of a piece along the axis; infinite if the pieces are not sorted.
     widest: f64,
 }
 
 impl SortedPieces {
-    fn of(set: &Set<'_>, pieces: &[u32]) -> Self {
+    fn of(all: &[Piece], pieces: &[u32]) -> Self {
         let mut around = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
-        pieces.iter().for_each(|&piece| around.include(&set.pieces[piece as usize]));
-        let mut sorted = Self { pieces: pieces.into(), around, axis: 0, widest: f64::INFINITY };
-        if pieces.len() > FEW {
-            let size = |axis: &usize| around.max[*axis] - around.min[*axis];
-            let axis = (0..3).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
-            let at = |piece: u32| &set.pieces[piece as usize];
-            sorted.axis = axis;
-            sorted.pieces.sort_unstable_by(|&a, &b| at(a).min[axis].total_cmp(&at(b).min[axis]));
-            let sizes = pieces.iter().map(|&piece| at(piece).max[axis] - at(piece).min[axis]);
-            sorted.widest = sizes.fold(0.0, f64::max);
+        pieces.iter().for_each(|&piece| around.include(&all[piece as usize]));
+        let size = |axis: &usize| around.max[*axis] - around.min[*axis];
+        let axis = (0..3).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
+        let mut sorted = Self { pieces: pieces.into(), around, axis, classes: SmallVec::new() };
+        if pieces.len() <= FEW {
+            sorted.classes.push(Class { range: 0..pieces.len(), widest: f64::INFINITY });
+            return sorted;
+        }
+        let start = |piece: u32| all[piece as usize].min[axis];
+        let size = |piece: u32| all[piece as usize].max[axis] - start(piece);
+        // Twice as large for each class.
+        let class = |piece: u32| size(piece).max(1.0).to_bits() >> (f64::MANTISSA_DIGITS - 1);
+        sorted.pieces.sort_unstable_by(|&a, &b| {
+            class(a).cmp(&class(b)).then(start(a).total_cmp(&start(b))).then(a.cmp(&b))
+        });
+        let mut first = 0;
+        for class in sorted.pieces.chunk_by(|&a, &b| class(a) == class(b)) {
+            let widest = class.iter().map(|&piece| size(piece)).fold(0.0, f64::max);
+            sorted.classes.push(Class { range: first..first + class.len(), widest });
+            first += class.len();
         }
         sorted
     }
 
     /// The pieces whose boxes may come within a distance of a piece.
-    fn touching(&self, set: &Set<'_>, other: &Piece, distance: f64) -> &[u32] {
-        if self.widest == f64::INFINITY {
-            return &self.pieces;
-        }
-        let start = |&piece: &u32| set.pieces[piece as usize].min[self.axis];
-        let (low, high) = (other.min[self.axis] - distance, other.max[self.axis] + distance);
-        let first = self.pieces.partition_point(|piece| start(piece) + self.widest < low);
-        let end = self.pieces.partition_point(|piece| start(piece) <= high);
-        &self.pieces[first..end.max(first)]
+    fn touching(&self, all: &[Piece], other: &Piece, distance: f64) -> impl Iterator<Item = &u32> {
+        let axis = self.axis;
+        let (low, high) = (other.min[axis] - distance, other.max[axis] + distance);
+        let start = move |piece: u32| all[piece as usize].min[axis];
+        self.classes.iter().flat_map(move |Class { range, widest }| {
+            let class = &self.pieces[range.clone()];
+            if *widest == f64::INFINITY {
+                return class;
+            }
+            let first = class.partition_point(|&piece| start(piece) + widest < low);
+            let end = class.partition_point(|&piece| start(piece) <= high);
+            &class[first..end.max(first)]
+        })
     }
 }
 
 /// Whether two coplanar pieces overlap.
-fn overlap(set: &Set<'_>, large: &Piece, small: &Piece) -> bool {
-    let outline = |piece: &Piece| {
-        let mut outline = Outline::new();
-        piece.for_each_vertex(set.faces, set.arena, |p| outline.push(p));
-        outline
-    };
-    let [a, b] = [large, small].map(outline);
-    set.faces.overlap(large.face, [&a, &b])
+fn overlap(faces: &Faces, arena: &[Vertex], large: &Piece, small: &Piece) -> bool {
+    let [a, b] = [large, small].map(|piece| piece.outline(faces, arena));
+    faces.overlap(large.face, [&a, &b])
 }
