@@ -359,7 +359,7 @@ impl Divided {
     }
 }
 
-/// Points in the pixel with a corner at a position, on no line that is likely.
+/// Points in the pixel with a corner at a position, off the lines through simple fractions of a pixel.
 fn samples([x, y]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     let place = |k: usize| (k as f64 + 0.4937) / SAMPLES as f64;
     (0..SAMPLES * SAMPLES).map(move |k| {

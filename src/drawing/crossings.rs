@@ -241,8 +241,8 @@ impl VisibilityMap<'_> {
         (ends.map(place), ends)
     }
 
-    /// Whether two faces cross each other in the line between their cells. A face of a flat surface may have
-    /// been cut by the plane of a coplanar neighbour, or have cut the other face together with it.
+    /// Whether two faces cross each other in the line between their cells. The cut may lie in the plane of a coplanar
+    /// neighbour of either face.
     fn do_cross(
         &self,
         a: &CutSide,

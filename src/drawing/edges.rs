@@ -29,8 +29,8 @@ impl VisibilityMap<'_> {
     ///
     /// - edges that triangulation made inside a polygon, except silhouettes. (A polygon that is not planar
     ///   may be seen from its front on one side of such an edge, and from behind on the other side.)
-    /// - edges between two polygons that lie in one plane within the
-    ///   [tolerance](crate::BspTree#exactness), side by side;
+    /// - edges of two polygons that lie in one plane within the [tolerance](crate::BspTree#exactness), side by side, if
+    ///   both have the whole edge and no third polygon has it;
     /// - edges whose polygons are all seen exactly edge-on, or left out by the [options](super::ViewOptions);
     /// - edges along a border of the picture whose polygons are all outside the picture.
     ///

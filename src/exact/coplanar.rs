@@ -149,6 +149,8 @@ fn sides(outline: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::super::PlaneId;
     use super::*;
 
@@ -209,8 +211,8 @@ mod tests {
                 let count = [1, 2, 3, 4, 7, 40][random.next() as usize % 6];
                 let middle = DVec2::new(random.range(-1.0, 1.0), random.range(-1.0, 1.0));
                 let (size, flat) = (random.range(0.1, 1.0), random.range(0.0, 1.0));
-                let turn = DVec2::from_angle(random.range(0.0, 6.0));
-                let mut angles: Vec<f64> = (0..count).map(|_| random.range(0.0, 6.28)).collect();
+                let turn = DVec2::from_angle(random.range(0.0, TAU));
+                let mut angles: Vec<f64> = (0..count).map(|_| random.range(0.0, TAU)).collect();
                 angles.sort_by(f64::total_cmp);
                 if random.next() >> 63 == 0 {
                     angles.reverse();

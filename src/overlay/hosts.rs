@@ -77,10 +77,11 @@ impl Hosts {
                 && known.part.start <= all.start
                 && all.end <= known.part.end
         };
-        let outline = piece.outline(faces, arena);
+        let mut outline = Outline::new();
         let hosts = match known {
             Some(known) if is_part(known) => known.hosts.clone(),
             _ => {
+                outline = piece.outline(faces, arena);
                 if side == Side::Coplanar && at.is_inside(&outline) {
                     return Ok(Some(side));
                 }
@@ -92,6 +93,9 @@ impl Hosts {
             }
         };
         let hosts = &fragments[hosts.start as usize..hosts.end as usize];
+        if outline.is_empty() && !hosts.is_empty() {
+            outline = piece.outline(faces, arena);
+        }
         let parts = [(own, Side::Coplanar), (front, Side::Front), (back, Side::Back)];
         let mut largest: Option<(u32, Side)> = None;
         for &host in hosts {

@@ -161,10 +161,16 @@ use crate::viewpoint::Ray;
 ///
 /// | | time |
 /// |---|---|
-/// | [`replace_with`](Self::replace_with) | O(p · d) for p pieces and a tree of depth d, plus the build of small trees where pieces meet; for each shape that lies entirely within twice the tolerance of a plane, the time of a [region query](BspTree::fragments_in) of its bounding box, and the first such query computes the bounding boxes of the tree, in O(n) for n fragments; and O(k²) for k such shapes that overlap one another and lie on no polygon of the tree |
+/// | [`replace_with`](Self::replace_with) | O(p · d) for p pieces and a tree of depth d, plus the build of small trees where pieces meet, plus the time for pieces near planes |
 /// | [`order`](Self::order), written or read | the time of the tree's order, plus a copy of its list |
 /// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the bounding boxes of the overlay's pieces that the ray crosses; the first call computes the bounding boxes of the tree and of the pieces, in O(n) for n fragments and pieces |
 /// | [`welded_mesh`](Self::welded_mesh) | O(n + m log m) for n corners of the tree's polygons and m vertices of the overlay's pieces |
+///
+/// A piece that lies entirely within twice the tolerance of a plane goes where the polygon is on which it lies. This takes
+/// the time of a [region query](BspTree::fragments_in) of the piece's bounding box, at the first such plane and in each
+/// part of the tree that the piece enters later. The first query computes the bounding boxes of the tree, in O(n) for n
+/// fragments. Such a piece is also compared with the larger polygons of the overlay whose bounding boxes, along one axis,
+/// touch the piece's: O(k²) for k polygons over one another.
 ///
 /// A body of many polygons passes down the tree in little time: if its bounding box lies on one side of a
 /// plane, all polygons move to that side at once. Each `replace` builds the small tree of the body again,

@@ -183,10 +183,10 @@ use crate::faces::Preparation;
 ///   wrong order from any viewpoint;
 /// - two polygons seen along a partition plane: they can be in the wrong order at any distance from each
 ///   other;
-/// - two overlapping polygons in exactly one plane, if another partition plane crosses that plane and the
-///   whole overlap is within τ of the other partition plane: they can lose their input order.
+/// - two overlapping polygons in one plane, in a few cases that the guide lists: they can lose their input order.
 ///
-/// With a tolerance of 0 the order is exactly right.
+/// With a tolerance of 0 the order is exactly right. The guide ([`guide::exact`](crate::guide::exact)) says what holds
+/// for each kind of answer.
 ///
 /// # Which tolerance
 ///

@@ -109,11 +109,11 @@ pub(super) fn larger(
         let touching = on.touching(set.pieces, other, tolerance).inspect(|_| compared += 1);
         let touching = touching
             .filter(|&&piece| Bounds::of(&set.pieces[piece as usize]).touches(other, tolerance));
-        // The set's own plane cuts no coplanar piece, wherever that is.
+        // A piece that is coplanar with the set's own face is never cut, even far from it.
         for &piece in touching.chain(own.filter(|_| is_cut)) {
             let piece = &set.pieces[piece as usize];
             let is_larger = faces.is_larger(other.face, piece.face);
-            // A piece that is on the plane of the set's own face was classified so.
+            // The smaller of the two is on this plane already.
             if !is_larger && plane.id() == PlaneId::face(piece.face) {
                 continue;
             }
@@ -179,9 +179,9 @@ pub(crate) fn follow_larger(
     });
     for &NearPiece { piece: small, .. } in &*near {
         let piece = &pieces[small as usize];
-        let mut largest: Option<u32> = None;
+        let (mut largest, mut compared): (Option<u32>, _) = (None, 0);
         for &other in leaders.touching(pieces, piece, tolerance) {
-            watch.work(1)?;
+            compared += 1;
             if faces.largest_first(face(other), face(largest.unwrap_or(small))).is_lt()
                 && Bounds::of(&pieces[other as usize]).touches(piece, tolerance)
                 && faces.are_coplanar(face(other), face(small))
@@ -190,6 +190,7 @@ pub(crate) fn follow_larger(
                 largest = Some(other);
             }
         }
+        watch.work(compared)?;
         let Some(largest) = largest else { continue };
         sides[small as usize] = match sides[largest as usize] {
             Side::Spanning => {
