@@ -2,20 +2,20 @@
 //! cross.
 
 use std::cmp::Ordering;
+use std::collections::hash_map::Entry;
 
 use glam::DVec3;
-use smallvec::SmallVec;
 
 use super::cell::Cell;
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::graph::Pair;
-use super::lines::{HalfPlane, Table, compare};
+use super::lines::{HalfPlane, Table};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
 use super::pairs::{Found, sorted};
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Growth, NARROWED, VISITED, found_in};
 use super::segments::{ProjectedSegment, parts};
-use crate::exact::{Faces, PlaneId, PreparedPlane, Side, cross};
+use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
@@ -46,11 +46,12 @@ struct CommonSide {
     ends: [[f64; 2]; 2],
 }
 
-/// Whether two faces cross each other in a line. The key is the line and the faces.
+/// Whether two faces, the lower number first, pass through each other. A coplanar neighbour's plane may decide in one
+/// line.
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
-/// For each line, the pairs of faces whose planes meet in the line and of which one was cut there.
-type Cuts = Table<HalfPlane, SmallVec<[[u32; 2]; 1]>>;
+/// For each line of a cut and each face that reaches through the plane of another face in this line, the other face.
+type Through = Table<(HalfPlane, u32), u32>;
 
 impl VisibilityMap<'_> {
     /// Returns the lines in which polygons intersect, as [runs](EdgeRun) of the kind [`EdgeKind::Crossing`].
@@ -137,17 +138,18 @@ impl VisibilityMap<'_> {
             a.line.cmp(&b.line).then(a.places[0].total_cmp(&b.places[0]))
         })?;
         let mut common = Vec::new();
-        let mut are_crossing = Known::default();
-        let cuts = self.primitives.lines.cuts_of_faces();
+        let (through, mut known) = (self.through(watch)?, Known::default());
         for line in sides.chunk_by(|a, b| a.line == b.line) {
             for (i, a) in line.iter().enumerate() {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
                 for b in each(watch, VISITED, ahead) {
                     let b = b?;
-                    if b.is_negative != a.is_negative
-                        && self.do_cross(a, b, inner, &cuts, &mut are_crossing)
-                    {
-                        common.push(CommonSide::new([a, b], inner));
+                    if b.is_negative == a.is_negative {
+                        continue;
+                    }
+                    let part = CommonSide::new([a, b], inner);
+                    if self.do_cross([a, b], &part, inner, &through, &mut known, watch)? {
+                        common.push(part);
                     }
                 }
             }
@@ -241,54 +243,68 @@ impl VisibilityMap<'_> {
         (ends.map(place), ends)
     }
 
-    /// Whether two faces cross each other in the line between their cells. The cut may lie in the plane of a coplanar
-    /// neighbour of either face.
+    /// Whether two faces cross each other in the line between their cells: whether they pass through each other, and
+    /// meet in this part of the line.
     fn do_cross(
         &self,
-        a: &CutSide,
-        b: &CutSide,
+        [a, b]: [&CutSide; 2],
+        part: &CommonSide,
         inner: &InnerEdges,
-        cuts: &Cuts,
+        through: &Through,
         known: &mut Known,
-    ) -> bool {
+        watch: &Watch<'_>,
+    ) -> Result<bool, Error> {
         let (lines, faces) = (&self.primitives.lines, self.primitives.lines.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
-            return false;
+            return Ok(false);
         }
-        let [one, other] = [a.face.min(b.face), a.face.max(b.face)];
-        let is_bent = a.inner.is_some() || b.inner.is_some();
-        if !is_bent && lines.is_cut_of(a.line, [one, other]) {
-            return true;
+        let pair = [a.face.min(b.face), a.face.max(b.face)];
+        if a.inner.is_some() || b.inner.is_some() {
+            watch.work(self.edges_work(pair))?;
+            // Only edges on this line count: other edges may end on it.
+            let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
+            return Ok(bend(a, b.face).or_else(|| bend(b, a.face)).is_some());
         }
-        *known.entry((a.line, [one, other])).or_insert_with(|| {
-            if is_bent {
-                // Only edges on this line count: other edges may end on it.
-                let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
-                return bend(a, b.face).or_else(|| bend(b, a.face)).is_some();
-            }
-            let mut made = cuts.get(&a.line).into_iter().flatten();
-            let is_cut = made.any(|&[c, d]| {
-                let are_on = |a, b| {
-                    faces.is_one_on_plane_of_other(one, a)
-                        && faces.is_one_on_plane_of_other(other, b)
+        let do_pass = match known.entry((a.line, pair)) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(unknown) => {
+                watch.work(self.edges_work(pair))?;
+                // Each reaches through a plane on which the other one lies: its own, or that of the cut.
+                let reaches = |face: u32, other: u32| {
+                    let is_on = |&plane: &u32| faces.is_on_plane_of(other, plane);
+                    faces.straddles(face, other) || through.get(&(a.line, face)).is_some_and(is_on)
                 };
-                are_on(c, d) || are_on(d, c)
-            });
-            // Faces that only touch within the tolerance may have been cut as well.
-            let cuts = |plane: u32, face: u32| {
-                let plane = PreparedPlane::new(faces, PlaneId::face(plane));
-                plane.classify(faces, face, None) == Side::Spanning
-            };
-            let do_pass = || cuts(one, other) || cuts(other, one);
-            if is_cut && !faces.are_coplanar(one, other) && do_pass() {
-                return true;
+                let [one, other] = pair;
+                let do_pass = reaches(one, other) && reaches(other, one);
+                *unknown.insert(do_pass || inner.bend(faces, pair).is_some())
             }
-            let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));
-            let cut = one.cut(&other);
-            // Faces in one plane have no line of intersection.
-            let is_line = cut.iter().any(|c| c.sign().is_ne());
-            is_line && compare(&cut, &lines.exact(a.line)).is_eq()
-        })
+        };
+        Ok(do_pass && (lines.is_cut_of(a.line, pair) || lines.do_meet(pair, a.line, part.ends)))
+    }
+
+    /// The faces that reach through the planes of cuts. If a face reaches through several planes in one line, the
+    /// largest face's plane counts.
+    fn through(&self, watch: &Watch<'_>) -> Result<Through, Error> {
+        let lines = &self.primitives.lines;
+        let faces = lines.frame.faces;
+        let mut through = Through::default();
+        for (line, pair @ [one, other]) in lines.cuts_of_faces() {
+            watch.work(VISITED + self.edges_work(pair))?;
+            for [face, plane] in [[one, other], [other, one]] {
+                if faces.straddles(face, plane) {
+                    let known = through.entry((line, face)).or_insert(plane);
+                    if faces.largest_first(plane, *known).is_lt() {
+                        *known = plane;
+                    }
+                }
+            }
+        }
+        Ok(through)
+    }
+
+    /// The cost of all corners of two faces; see [`Primitives::edges_work`].
+    fn edges_work(&self, faces: [u32; 2]) -> usize {
+        faces.map(|face| self.primitives.edges_work(face)).iter().sum()
     }
 
     /// The polygons of two faces, the lower number first.
@@ -621,7 +637,7 @@ impl InnerEdges {
     }
 
     /// Like [`bend`](Self::bend), given an edge of one polygon and a face of the other.
-    pub(super) fn bend_at(&self, faces: &Faces, edge: FaceEdge, other: u32) -> Option<Bend> {
+    fn bend_at(&self, faces: &Faces, edge: FaceEdge, other: u32) -> Option<Bend> {
         let across = self.across(edge)?;
         let ends = faces.ends(edge.0, edge.1);
         if ends.iter().any(|end| side(faces, other, end).is_ne()) {

@@ -294,17 +294,35 @@ impl<'t> LineTable<'t> {
         cut.is_some_and(|cut| cut.line() == half.line())
     }
 
-    /// For each line, the pairs of faces whose planes meet in the line, if one of the two was cut there.
-    pub(super) fn cuts_of_faces(&self) -> Table<HalfPlane, SmallVec<[[u32; 2]; 1]>> {
-        let mut found: Table<HalfPlane, SmallVec<[[u32; 2]; 1]>> = Table::default();
-        for (key, half) in &self.halves {
-            if let Key::Cut(one, plane) = *key
-                && let PlaneKind::Face(other) = plane.kind()
-            {
-                found.entry(half.positive()).or_default().push([one, other]);
-            }
+    /// The pairs of faces whose planes meet in a line in which one of the two was cut, and the line.
+    pub(super) fn cuts_of_faces(&self) -> impl Iterator<Item = (HalfPlane, [u32; 2])> {
+        self.halves.iter().filter_map(|(key, half)| match *key {
+            Key::Cut(one, plane) => match plane.kind() {
+                PlaneKind::Face(other) => Some((half.positive(), [one, other])),
+                PlaneKind::Axis(..) => None,
+            },
+            _ => None,
+        })
+    }
+
+    /// Whether two faces meet in a half's line, between two points of the line. With a tolerance, the plane of a
+    /// coplanar neighbour of either face may have made the line.
+    pub(super) fn do_meet(&self, faces: [u32; 2], half: HalfPlane, ends: [[f64; 2]; 2]) -> bool {
+        /// Coplanar neighbours of a face, and their neighbours, are less than this many tolerances away from it. Too
+        /// small: crossings are lost where the plane of such a neighbour made the line. Too large: faces that meet
+        /// beside the line seem to meet in it.
+        const CHAIN: f64 = 4.0;
+        let is_near = |at: [f64; 2]| {
+            let [a, b] = faces.map(|face| self.frame.meeting(face, at));
+            (a.place - b.place).abs() < CHAIN * (a.slack + b.slack)
+        };
+        if self.frame.faces.tolerance() > 0.0 && ends.into_iter().all(is_near) {
+            return true;
         }
-        found
+        let [one, other] = faces.map(|face| self.frame.sheet(PlaneId::face(face)));
+        let cut = one.cut(&other);
+        // Faces in one plane have no line of intersection.
+        cut.iter().any(|c| c.sign().is_ne()) && compare(&cut, &self.exact(half)).is_eq()
     }
 
     /// The key that a line was first made for.
@@ -686,11 +704,28 @@ pub(super) struct ImagePlane {
     phi: [Int<3>; 3],
 }
 
+/// The place where a ray meets a face's plane, in multiples of the ray's direction, rounded. If the plane moves by the
+/// tolerance, the place moves by `slack`.
+struct Meeting {
+    place: f64,
+    slack: f64,
+}
+
 /// A point of the scene in homogeneous coordinates of the picture: a weight, positive ahead of the eye, and
 /// the coordinates times the weight.
 pub(super) type Image = [Int<4>; 3];
 
 impl ViewFrame<'_> {
+    /// The place where the ray through a point of the picture meets a face's plane.
+    fn meeting(&self, face: u32, at: [f64; 2]) -> Meeting {
+        let normal = self.faces.normal(face);
+        let [from, way] = self.rays.through(at, self.faces.triangle(face)[0]);
+        let slope = normal.dot(way);
+        // From very far away, rounding moves the place further than the tolerance does.
+        let length = self.faces.tolerance() + 16.0 * ROUNDING * from.length();
+        Meeting { place: -normal.dot(from) / slope, slack: length * normal.length() / slope.abs() }
+    }
+
     /// A plane of the scene, as a function of the rays.
     pub(super) fn sheet(&self, plane: PlaneId) -> ImagePlane {
         self.sheet_of(&self.faces.plane(plane))

@@ -49,14 +49,10 @@ impl Faces {
         PreparedPlane::new(self, PlaneId::face(large)).contains(self, small)
     }
 
-    /// Whether either of two faces is within the tolerance of the other one's plane. This holds for coplanar faces,
-    /// and also for a large face on the plane of a small one that leaves the large face's plane.
+    /// Whether a face lies on another face's plane.
     #[cfg(feature = "drawing")]
-    pub(crate) fn is_one_on_plane_of_other(&self, one: u32, other: u32) -> bool {
-        one == other
-            || [[one, other], [other, one]].iter().any(|&[plane, face]| {
-                PreparedPlane::new(self, PlaneId::face(plane)).contains(self, face)
-            })
+    pub(crate) fn is_on_plane_of(&self, face: u32, other: u32) -> bool {
+        PreparedPlane::new(self, PlaneId::face(other)).contains(self, face)
     }
 
     /// Whether two coplanar convex outlines overlap by more than the tolerance, seen along an axis, given a face in

@@ -317,6 +317,19 @@ impl Rays {
         }
     }
 
+    /// A point of the ray through a place in the picture, relative to a lattice point, and the ray's direction,
+    /// rounded.
+    #[cfg(feature = "drawing")]
+    pub(crate) fn through(&self, [x, y]: [f64; 2], point: [f64; 3]) -> [DVec3; 2] {
+        let [base, right, down] = [self.base, self.right, self.down].map(float);
+        let step = right * x + down * y;
+        let from = DVec3::from_array(self.origin_from(point));
+        match self.pencil {
+            RayOrigin::From { .. } => [from, base + step],
+            RayOrigin::Along { direction } => [from + step, float(direction)],
+        }
+    }
+
     /// The eye, or for parallel rays the point of the first pixel's ray, relative to a lattice point. Each
     /// component is within 2.4 roundings.
     ///

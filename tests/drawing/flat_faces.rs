@@ -1,5 +1,5 @@
-//! Boxes whose flat sides are triangles with rounded corners, at default tolerances: their crossings are as
-//! long as with a tolerance of 0, and no edge divides a flat side.
+//! Boxes whose flat sides are polygons with rounded corners, at default tolerances: their crossings are as
+//! long as with a tolerance of 0, sides that touch do not cross, and no edge divides a flat side.
 
 use super::map_of;
 use binspace::drawing::{EdgeKind, EdgeRun};
@@ -236,5 +236,188 @@ fn faces_that_touch_within_the_tolerance_do_not_cross() {
         let tree = options.build(faces).unwrap();
         let found = length(&map_of(&tree, &camera).crossings(Hidden::Keep).unwrap());
         assert!(found < 0.1, "{heuristic}: {found}");
+    }
+}
+
+/// The corners of a side's parts, as shares of its width and height: rectangles halved again and again, some into
+/// triangles. Corners of some parts lie on edges of others.
+fn parts(dice: &mut Dice, [from, to]: [DVec2; 2], depth: usize, found: &mut Vec<Vec<DVec2>>) {
+    if depth > 0 && dice.below(3) > 0 {
+        let at = from + (to - from) * dice.range(0.2, 0.8);
+        let is_across = dice.below(2) == 0;
+        let (end, start) = match is_across {
+            true => (dvec2(at.x, to.y), dvec2(at.x, from.y)),
+            false => (dvec2(to.x, at.y), dvec2(from.x, at.y)),
+        };
+        parts(dice, [from, end], depth - 1, found);
+        parts(dice, [start, to], depth - 1, found);
+        return;
+    }
+    let [a, b, c, d] = [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y)];
+    found.extend(match dice.below(3) {
+        0 => vec![vec![a, b, c, d]],
+        1 => vec![vec![a, b, c], vec![a, c, d]],
+        _ => vec![vec![a, b, d], vec![b, c, d]],
+    });
+}
+
+/// The parts of a box's sides, with so many decimals.
+fn divided_box(dice: &mut Dice, places: i32) -> Vec<Vec<DVec3>> {
+    let mut angle = || dice.range(-3.0, 3.0);
+    let turn = DQuat::from_euler(EulerRot::XYZ, angle(), angle(), angle());
+    let (at, size) = (dice.point(-0.4, 0.4), dice.point(0.2, 1.1));
+    let scale = 10f64.powi(places);
+    let mut polygons = Vec::new();
+    for (axis, sign) in (0..3).flat_map(|axis| [(axis, -1.0), (axis, 1.0)]) {
+        let mut found = Vec::new();
+        parts(dice, [DVec2::NEG_ONE, DVec2::ONE], 3, &mut found);
+        let corner = |p: &DVec2| {
+            let mut corner = [sign, p.x * sign, p.y];
+            corner.rotate_right(axis);
+            ((at + turn * (DVec3::from(corner) * size)) * scale).round() / scale
+        };
+        polygons.extend(found.iter().map(|part| part.iter().map(corner).collect::<Vec<_>>()));
+    }
+    dice.shuffle(&mut polygons);
+    polygons
+}
+
+/// Rounded corners reach through the sides that they touch, by less than the tolerance.
+#[test]
+fn sides_of_one_box_do_not_cross_each_other() {
+    let (mut crossed, mut pieces) = (0, 0);
+    for seed in seeds(60) {
+        let mut dice = Dice(seed);
+        let places = 3 + dice.below(4) as i32;
+        let mut polygons = divided_box(&mut dice, places);
+        let first = polygons.len();
+        polygons.extend(divided_box(&mut dice, places));
+        let heuristic = Heuristic::ALL[dice.below(Heuristic::ALL.len())];
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        // As a reader of decimals builds it.
+        let tree = options.with_tolerance(4.0 * 10f64.powi(-places)).build(&polygons).unwrap();
+        let eye = dice.point(-1.0, 1.0).normalize() * 8.0;
+        let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.6, [400, 300]).unwrap();
+        pieces += tree.len() - polygons.len();
+        for run in map_of(&tree, &camera).crossings(Hidden::Keep).unwrap() {
+            let EdgeKind::Crossing(other) = run.kind else { panic!("{run:?}") };
+            let is_of_both = (run.polygon < first) != (other < first);
+            let long = length(std::slice::from_ref(&run));
+            assert!(is_of_both || long < 0.1, "{seed}: {run:?} from {eye:?}: {polygons:?}");
+            crossed += usize::from(is_of_both && run.is_visible && long > 1.0);
+        }
+    }
+    enough!(crossed > 250, pieces > 3000; "{crossed} {pieces}");
+}
+
+/// Two sides of a box that touch in one corner and along a line. The first reaches a little through the second.
+#[test]
+fn sides_of_a_box_that_touch_do_not_cross() {
+    let faces = [
+        [
+            [-0.66204, -0.16897, -1.11299],
+            [1.16358, -0.65537, -0.91293],
+            [1.10167, -0.94004, -1.04009],
+            [-0.72395, -0.45364, -1.24016],
+        ],
+        [
+            [1.34348, 0.59232, 0.4789],
+            [0.94867, -1.22306, -0.33203],
+            [1.10167, -0.94004, -1.04009],
+            [1.49648, 0.87534, -0.22916],
+        ],
+    ];
+    let eye = DVec3::new(1.616837426999533, 4.666508729624264, -6.293610490886299);
+    for (heuristic, [found, exact]) in lengths(&faces.map(Vec::from), 4e-5, eye) {
+        assert!(found < 0.1 && exact < 0.1, "{heuristic}: {found}, {exact} at 0");
+    }
+}
+
+/// The second polygon, a strip, crosses the last one, which the plane of the third cut. The third lies beside the strip
+/// in one flat side, but neither is on the other's plane.
+#[test]
+fn a_strip_crosses_what_the_plane_of_its_neighbour_cut() {
+    let faces = [
+        vec![
+            [0.0146, -0.272187, -1.03018],
+            [-1.285277, -0.077362, -0.544107],
+            [0.344428, 0.062354, -0.28223],
+        ],
+        vec![
+            [0.227563, 0.553801, -0.102408],
+            [-0.425157, -0.189787, 1.251953],
+            [-0.394639, -0.22636, 1.246581],
+            [0.258082, 0.517228, -0.107779],
+        ],
+        vec![
+            [0.185456, 0.217941, 0.218828],
+            [0.133965, 0.159282, 0.325668],
+            [0.284781, -0.021454, 0.299123],
+            [0.336272, 0.037205, 0.192283],
+        ],
+        vec![
+            [0.748857, -0.264995, 1.419081],
+            [0.024276, 0.523471, -0.633351],
+            [0.031603, 1.167592, 0.024605],
+        ],
+    ];
+    let eye = DVec3::new(2.245992383392225, 6.8982652113299086, 3.3718622878017475);
+    for faces in [&faces[..], &faces[1..]] {
+        for (heuristic, [found, exact]) in lengths(faces, 4e-6, eye) {
+            enough!(exact > 3.0; "{exact}");
+            assert!((found - exact).abs() < 0.02, "{heuristic}: {found}, {exact} at 0");
+        }
+    }
+}
+
+/// The lengths of all visible crossings at a tolerance and at 0, by every heuristic and two cameras.
+fn lengths(faces: &[Vec<[f64; 3]>], tolerance: f64, eye: DVec3) -> Vec<(Heuristic, [f64; 2])> {
+    let perspective = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.6, [400, 300]);
+    let parallel = Camera::parallel(-eye, DVec3::Z, DVec3::ZERO, 4.0, [400, 300]);
+    let cameras = [perspective.unwrap(), parallel.unwrap()];
+    let of = |heuristic: Heuristic, camera: &Camera| {
+        [tolerance, 0.0].map(|tolerance| {
+            let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+            let tree = options.with_tolerance(tolerance).build(faces).unwrap();
+            length(&map_of(&tree, camera).crossings(Hidden::Skip).unwrap())
+        })
+    };
+    let all = Heuristic::ALL.iter();
+    all.flat_map(|&heuristic| cameras.each_ref().map(|c| (heuristic, of(heuristic, c)))).collect()
+}
+
+/// A floor in the shape of an L is divided into triangles along a diagonal. A wall goes through it along this diagonal.
+#[test]
+fn a_wall_crosses_a_floor_along_the_edge_between_its_triangles() {
+    let floor = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    for seed in seeds(60) {
+        let mut dice = Dice(seed);
+        let mut angle = || dice.range(-3.0, 3.0);
+        let turn = DQuat::from_euler(EulerRot::XYZ, angle(), angle(), angle());
+        let at = dice.point(-0.4, 0.4);
+        let place =
+            |x: f64, y: f64, z: f64| ((at + turn * dvec3(x - 0.7, y - 0.7, z)) * 1e5).round() / 1e5;
+        let walls = [[[0.0, 0.0], [1.0, 1.0]], [[0.0, 1.0], [1.0, 1.0]], [[1.0, 0.0], [1.0, 1.0]]];
+        for [a, b] in walls {
+            let corners = [(a, -0.5), (b, -0.5), (b, 0.5), (a, 0.5)];
+            let wall = corners.map(|([x, y], z)| place(x, y, z)).to_vec();
+            let mut polygons = vec![floor.map(|[x, y]| place(x, y, 0.0)).to_vec(), wall];
+            if dice.below(2) == 0 {
+                polygons.reverse();
+            }
+            // Not almost in the plane of either.
+            let way = dvec3(dice.range(0.2, 0.3), dice.range(0.5, 0.8), 0.5);
+            let eye = turn * way.normalize() * 8.0;
+            let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.6, [400, 300]).unwrap();
+            let ends = [a, b].map(|[x, y]| camera.project(place(x, y, 0.0)).unwrap());
+            let expected = DVec2::from(ends[0]).distance(ends[1].into());
+            for &heuristic in Heuristic::ALL {
+                let options = BuildOptions::DEFAULT.with_heuristic(heuristic).with_tolerance(4e-5);
+                let tree = options.build(&polygons).unwrap();
+                let found = length(&map_of(&tree, &camera).crossings(Hidden::Skip).unwrap());
+                let is_whole = (found - expected).abs() < 0.3;
+                assert!(is_whole, "{heuristic}: {found} for {expected}: {polygons:?}");
+            }
+        }
     }
 }
