@@ -81,8 +81,8 @@ impl VisibilityMap<'_> {
         sort_unique(&mut hidden, watch)?;
         let segments: Vec<ProjectedSegment> =
             hidden.iter().filter_map(|&number| segment(number)).collect();
-        let passes = self.in_front(Passing::new(&segments, &[]), true, watch)?.segments;
         let faces = self.primitives.lines.frame.faces;
+        let passes = self.in_front(Passing::new(&segments, &[], faces), true, watch)?.segments;
         let is_own = |place: u32, face: u32| is_own(hidden[place as usize], face);
         let depths = Depths::new(segments.len(), &passes, faces, is_own, watch)?;
         let mut layered = Vec::new();

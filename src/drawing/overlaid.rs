@@ -71,7 +71,7 @@ impl VisibilityMap<'_> {
     /// a corner of the polygon is in front of the point. Polygons seen edge-on hide nothing, and lines hide
     /// nothing. A segment seen end-on has no run.
     ///
-    /// A segment that lies within the [tolerance](crate::BspTree#exactness) of a polygon's plane counts as
+    /// A segment that lies within the [overlay's tolerance](Overlay#order) of a polygon's plane counts as
     /// lying on the plane, and the polygon does not hide the segment. A segment that reaches further than
     /// the tolerance on only one side of the plane counts as entirely on that side. These decisions are
     /// exact; only the ends of runs are rounded.
@@ -89,7 +89,8 @@ impl VisibilityMap<'_> {
         let faces = primitives.lines.frame.faces;
         self.reporter.watch(1, |watch| {
             let (segments, projected) = segments(&primitives.lines, overlay, watch)?;
-            let passes = self.in_front(Passing::new(&projected, &[]), counts, watch)?.segments;
+            let passing = Passing::new(&projected, &[], overlay.faces());
+            let passes = self.in_front(passing, counts, watch)?.segments;
             let depths = match counts {
                 true => Some(Depths::new(projected.len(), &passes, faces, |_, _| false, watch)?),
                 false => None,
@@ -133,7 +134,8 @@ impl VisibilityMap<'_> {
         overlay.expect_no_polygons(self.tree)?;
         self.reporter.watch(1, |watch| {
             let (mut views, points) = points(&self.primitives.lines, overlay, watch)?;
-            for pass in self.in_front(Passing::new(&[], &points), false, watch)?.points {
+            let passing = Passing::new(&[], &points, overlay.faces());
+            for pass in self.in_front(passing, false, watch)?.points {
                 views[pass.point as usize].is_visible = false;
             }
             Ok(views)
@@ -197,7 +199,8 @@ impl Between {
         let (segments, projected) = segments(&primitives.lines, overlay, watch)?;
         let (markers, points) = points(&primitives.lines, overlay, watch)?;
         let items = Candidates::items(primitives, |_| true)?;
-        let mut passes = passes(items, Passing::new(&projected, &points), false, watch)?;
+        let passing = Passing::new(&projected, &points, overlay.faces());
+        let mut passes = passes(items, passing, false, watch)?;
         sort_by(&mut passes.segments, watch, |a, b| a.segment.cmp(&b.segment))?;
         sort_by(&mut passes.points, watch, |a, b| a.point.cmp(&b.point))?;
         Ok(Self { segments, projected, markers, passes })

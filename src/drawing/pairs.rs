@@ -217,7 +217,7 @@ pub(super) fn overlaps<'p>(
         (!is_leaf).then(|| list.halves(watch)).transpose()
     };
     let leaf = |list: &TileList<'p>, found: &mut Found| {
-        let whole = SubTile::new(list, Passing::NOTHING, watch)?;
+        let whole = SubTile::new(list, Passing::nothing(primitives.lines.frame.faces), watch)?;
         whole.for_each_part(|part| add_overlaps(&part, primitives, found, watch), watch)
     };
     let all = TileList::picture(Candidates::items(primitives, |_| true)?, watch)?;

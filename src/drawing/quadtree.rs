@@ -441,7 +441,7 @@ impl Leaf {
             }
             cells = area.cells;
         } else {
-            let whole = SubTile::new(list, Passing::NOTHING, watch)?;
+            let whole = SubTile::new(list, Passing::nothing(primitives.lines.frame.faces), watch)?;
             let see = |part: SubTile<'_, '_>| {
                 cells.extend(part.visible(watch)?);
                 Ok(())

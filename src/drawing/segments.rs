@@ -205,16 +205,17 @@ impl ProjectedSegment {
         lines.exact_side_of(&self.exact(lines), halves)
     }
 
-    /// The places where the segment is further away than a face's plane, which is seen from a given side;
-    /// `None` if there are no such places. Within the tolerance the segment is on the plane, not behind it.
+    /// The places where the segment is further away than a face's plane; `None` if there are no such places.
+    /// Within the tolerance of `faces`, the segment is on the plane, not behind it.
     pub(super) fn behind(
         &self,
         lines: &LineTable<'_>,
+        faces: &Faces,
         face: u32,
         seen: Ordering,
     ) -> Option<[f64; 2]> {
         match self.source {
-            Source::Points(ends) => self.points_behind(lines, ends, face, seen),
+            Source::Points(ends) => self.points_behind(lines, faces, ends, face, seen),
             Source::Crossing([own, _]) => self.crossing_behind(lines, own, face, seen),
         }
     }
@@ -259,11 +260,11 @@ impl ProjectedSegment {
     fn points_behind(
         &self,
         lines: &LineTable<'_>,
+        faces: &Faces,
         ends: [[f64; 3]; 2],
         face: u32,
         seen: Ordering,
     ) -> Option<[f64; 2]> {
-        let faces = lines.frame.faces;
         let prepared = PreparedPlane::new(faces, PlaneId::face(face));
         let sides = ends.map(|end| prepared.side_beyond(faces, &end));
         let is_behind = sides.map(|side| side == seen.reverse());
@@ -368,9 +369,8 @@ impl ProjectedPoint {
         })
     }
 
-    /// Whether the point is further away than a face's plane.
-    pub(super) fn is_behind(&self, lines: &LineTable<'_>, face: u32, seen: Ordering) -> bool {
-        let faces = lines.frame.faces;
+    /// Whether the point is further away than a face's plane, by more than the tolerance of `faces`.
+    pub(super) fn is_behind(&self, faces: &Faces, face: u32, seen: Ordering) -> bool {
         let prepared = PreparedPlane::new(faces, PlaneId::face(face));
         prepared.side_beyond(faces, &self.point) == seen.reverse()
     }
@@ -403,18 +403,27 @@ pub(super) struct PointPass {
 pub(super) struct Passing<'a> {
     segments: &'a [ProjectedSegment],
     points: &'a [ProjectedPoint],
+    /// The faces whose tolerance decides what lies on a plane: those of the tree, or of an overlay, which begin with
+    /// those of the tree.
+    faces: &'a Faces,
     near_segments: Vec<u32>,
     near_points: Vec<u32>,
 }
 
 impl<'a> Passing<'a> {
-    pub(super) const NOTHING: Self =
-        Self { segments: &[], points: &[], near_segments: vec![], near_points: vec![] };
+    /// No segments and no points.
+    pub(super) fn nothing(faces: &'a Faces) -> Self {
+        Self::new(&[], &[], faces)
+    }
 
-    pub(super) fn new(segments: &'a [ProjectedSegment], points: &'a [ProjectedPoint]) -> Self {
+    pub(super) fn new(
+        segments: &'a [ProjectedSegment],
+        points: &'a [ProjectedPoint],
+        faces: &'a Faces,
+    ) -> Self {
         let near_segments = (0..segments.len() as u32).collect();
         let near_points = (0..points.len() as u32).collect();
-        Self { segments, points, near_segments, near_points }
+        Self { segments, points, faces, near_segments, near_points }
     }
 
     fn is_empty(&self) -> bool {
@@ -512,7 +521,7 @@ impl Passes {
         wants_behind_only: bool,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let Passing { segments, points, near_segments, near_points } = passing;
+        let Passing { segments, points, faces, near_segments, near_points } = passing;
         let lines = &primitives.lines;
         for Visible { item: piece, cell } in pieces {
             watch.work((near_segments.len() + near_points.len()) * CUT)?;
@@ -535,7 +544,8 @@ impl Passes {
                         });
                     }
                 };
-                let [from, to] = segment.behind(lines, face, side).unwrap_or([f64::INFINITY; 2]);
+                let behind = segment.behind(lines, faces, face, side);
+                let [from, to] = behind.unwrap_or([f64::INFINITY; 2]);
                 add(true, [from, to]);
                 add(false, [f64::NEG_INFINITY, from]);
                 add(false, [to, f64::INFINITY]);
@@ -545,7 +555,7 @@ impl Passes {
                 if are_apart(&around, &point.around()) || !point.is_in(lines, cell) {
                     continue;
                 }
-                let is_behind = point.is_behind(lines, face, side);
+                let is_behind = point.is_behind(faces, face, side);
                 if is_behind || !wants_behind_only {
                     self.points.push(PointPass { point: number, piece: *piece, is_behind });
                 }

@@ -31,7 +31,7 @@ const UNTOLD: f64 = -1.0;
 
 /// Whether a path covers a point, with its inside or with an outline no further than `through`. `None` if an
 /// outline is further than `through`, but too near to decide.
-fn covers(path: &Path<'_>, [x, y]: [f64; 2], through: f64) -> Option<bool> {
+pub(crate) fn covers(path: &Path<'_>, [x, y]: [f64; 2], through: f64) -> Option<bool> {
     let (mut winding, mut nearest) = (0, f64::INFINITY);
     for outline in path.outlines() {
         for (i, a) in outline.iter().enumerate() {

@@ -17,6 +17,7 @@ mod in_front;
 mod lines;
 mod matrices;
 mod meetings;
+mod on_surfaces;
 mod overlay;
 mod pen;
 mod pictures;
