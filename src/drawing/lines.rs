@@ -823,8 +823,13 @@ pub(super) fn orientation([a, b, c]: [&ExactLine; 3]) -> Ordering {
 
 /// The side of a line on which a point ahead of the eye lies.
 pub(super) fn side_at(line: &ExactLine, image: &Image) -> Ordering {
-    let term = |i: usize| -> Int<11> { line[i].times(&image[i]) };
-    (term(0) + term(1) + term(2)).sign()
+    value_at(line, image).sign()
+}
+
+/// The value of a line at a point, times the point's weight.
+pub(super) fn value_at(line: &ExactLine, image: &Image) -> Int<11> {
+    let term = |i: usize| line[i].times(&image[i]);
+    term(0) + term(1) + term(2)
 }
 
 /// A total order of lines, regardless of their direction. Lines are compared by the first coefficient that is

@@ -71,10 +71,17 @@ impl VisibilityMap<'_> {
     /// a corner of the polygon is in front of the point. Polygons seen edge-on hide nothing, and lines hide
     /// nothing. A segment seen end-on has no run.
     ///
-    /// A segment that lies within the [overlay's tolerance](Overlay#order) of a polygon's plane counts as
-    /// lying on the plane, and the polygon does not hide the segment. A segment that reaches further than
-    /// the tolerance on only one side of the plane counts as entirely on that side. These decisions are
-    /// exact; only the ends of runs are rounded.
+    /// The [overlay's tolerance](Overlay#order) decides which segments lie on a polygon, as it does in orders.
+    /// Consider the part of a segment that passes a polygon in the picture:
+    ///
+    /// - the polygon does not hide the segment if no point of the part is behind the polygon's plane by more than
+    ///   the tolerance. So a line on a flat wall of many small polygons is visible, although their planes differ;
+    /// - otherwise the polygon hides the whole part if no point of the whole segment is in front of the plane by
+    ///   more than the tolerance;
+    /// - otherwise the polygon hides what is behind the plane.
+    ///
+    /// (A polygon that is not planar consists of triangles, each with its own plane.) These decisions are exact;
+    /// only the ends of runs are rounded.
     ///
     /// Takes O(n log n + k) for n segments and cells, and k pairs of a segment and a cell that meet in the
     /// picture. With [`Hidden::Count`], n and k also include hidden polygons.

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use super::cell::{Cell, Corner, NOWHERE, Rect, are_apart, side_on_line};
 use super::edges::SHORTEST;
-use super::lines::{ExactLine, Image, LineTable, Rounded, meeting, side_at};
+use super::lines::{ExactLine, Image, LineTable, Rounded, meeting, side_at, value_at};
 use super::map::{VisibilityMap, sort_by};
 use super::pairs::around;
 use super::primitives::Primitives;
@@ -205,18 +205,21 @@ impl ProjectedSegment {
         lines.exact_side_of(&self.exact(lines), halves)
     }
 
-    /// The places where the segment is further away than a face's plane; `None` if there are no such places.
-    /// Within the tolerance of `faces`, the segment is on the plane, not behind it.
+    /// The places where the segment is behind a face: further away than the face's plane; `None` if there are no
+    /// such places. If the whole part of the segment that passes the face is within the tolerance of `faces`, or in
+    /// front, it is not behind. `chord` is where the segment passes a cell of the face.
     pub(super) fn behind(
         &self,
-        lines: &LineTable<'_>,
+        primitives: &Primitives<'_>,
         faces: &Faces,
-        face: u32,
-        seen: Ordering,
+        (face, chord): (u32, [f64; 2]),
     ) -> Option<[f64; 2]> {
         match self.source {
-            Source::Points(ends) => self.points_behind(lines, faces, ends, face, seen),
-            Source::Crossing([own, _]) => self.crossing_behind(lines, own, face, seen),
+            Source::Points(ends) => self.points_behind(primitives, faces, ends, (face, chord)),
+            Source::Crossing([own, _]) => {
+                let seen = primitives.views[face as usize].side;
+                self.crossing_behind(&primitives.lines, own, face, seen)
+            }
         }
     }
 
@@ -259,37 +262,84 @@ impl ProjectedSegment {
 
     fn points_behind(
         &self,
-        lines: &LineTable<'_>,
+        primitives: &Primitives<'_>,
         faces: &Faces,
         ends: [[f64; 3]; 2],
-        face: u32,
-        seen: Ordering,
+        (face, chord): (u32, [f64; 2]),
     ) -> Option<[f64; 2]> {
+        let lines = &primitives.lines;
         let prepared = PreparedPlane::new(faces, PlaneId::face(face));
         let sides = ends.map(|end| prepared.side_beyond(faces, &end));
-        let is_behind = sides.map(|side| side == seen.reverse());
-        if is_behind == [false; 2] || sides[0] != sides[1].reverse() {
-            return (is_behind != [false; 2]).then_some(ALL);
+        let behind = primitives.views[face as usize].side.reverse();
+        let is_behind = sides.map(|side| side == behind);
+        if is_behind == [false; 2] {
+            return None;
         }
-        // The segment crosses the plane, at a weighted mean of its ends.
-        let plane = faces.plane(PlaneId::face(face));
-        let [a, b] = ends.map(|end| lines.frame.image(end));
-        let weights = [ends[1], ends[0]].map(|end| {
-            let at = plane.at(&end);
-            if at.is_negative() { -at } else { at }
-        });
+        if is_behind == [true; 2] {
+            return Some(ALL);
+        }
+        let images = ends.map(|end| lines.frame.image(end));
+        let places = if sides[0] == sides[1].reverse() {
+            let plane = faces.plane(PlaneId::face(face));
+            self.beyond(&images, ends.map(|end| plane.at(&end)), is_behind)?
+        } else {
+            ALL
+        };
+        if faces.tolerance() > 0.0 {
+            let [[first, last], [begin, end]] = [self.course.places, chord];
+            let (from, to) = (places[0].max(first).max(begin), places[1].min(last).min(end));
+            let excess = ends.map(|end| prepared.excess(faces, &end, behind));
+            let is_certain = self.is_positive_between([from, to], &images, &excess);
+            if from >= to || !is_certain && !is_anywhere(primitives, face, &images, &excess) {
+                return None;
+            }
+        }
+        Some(places)
+    }
+
+    /// The places beyond a plane that the segment crosses: those on the side of one of the ends. `at` is the plane's
+    /// values at the ends.
+    fn beyond(
+        &self,
+        [a, b]: &[Image; 2],
+        at: [Int<3>; 2],
+        is_beyond: [bool; 2],
+    ) -> Option<[f64; 2]> {
+        // The segment crosses the plane at a weighted mean of its ends.
+        let [second, first] = at.map(|at| if at.is_negative() { -at } else { at });
         let mean: [Int<6>; 3] = std::array::from_fn(|i| {
-            let parts: [Int<6>; 2] = [a[i].times(&weights[0]), b[i].times(&weights[1])];
+            let parts: [Int<6>; 2] = [a[i].times(&first), b[i].times(&second)];
             parts[0] + parts[1]
         });
         if mean[0].sign().is_gt() {
             let place = self.course.place(point_of(&mean));
-            return Some(if is_behind[0] { [ALL[0], place] } else { [place, ALL[1]] });
+            return Some(if is_beyond[0] { [ALL[0], place] } else { [place, ALL[1]] });
         }
         // The segment crosses the plane behind the eye: the part ahead of the eye lies on the side of the end
         // that is ahead.
         let ahead = if a[0].sign().is_gt() { 0 } else { 1 };
-        is_behind[ahead].then_some(ALL)
+        is_beyond[ahead].then_some(ALL)
+    }
+
+    /// Whether a function is certainly positive halfway between two places of the segment. The function is linear along
+    /// the segment, and given by its values at the ends, whose images are given.
+    fn is_positive_between(
+        &self,
+        [from, to]: [f64; 2],
+        images: &[Image; 2],
+        function: &[Int<3>; 2],
+    ) -> bool {
+        /// More than the relative errors of the terms, which are largest if an end is a margin away.
+        const SHARE: f64 = 1e-6;
+        let middle = 0.5 * (from + to);
+        let [first, second] = images.map(|image| {
+            let [weight, x, y] = image.map(Int::to_f64);
+            middle * weight - self.course.place([x, y])
+        });
+        let [a, b] = function.map(Int::to_f64);
+        let terms = [-second * a, first * b];
+        let certain = SHARE * (terms[0].abs() + terms[1].abs());
+        to - from > 2.0 * MARGIN && terms[0] + terms[1] > certain
     }
 }
 
@@ -321,6 +371,52 @@ fn point_of<const N: usize>(image: &[Int<N>; 3]) -> [f64; 2] {
 fn beside(signs: &[Ordering]) -> Ordering {
     let sides = [Ordering::Greater, Ordering::Less].map(|side| signs.contains(&side));
     sides[0].cmp(&sides[1])
+}
+
+/// Whether a function is positive somewhere on the part of a segment that passes a face in the picture. The
+/// function is linear along the segment, and given by its values at the ends, whose images are given.
+fn is_anywhere(
+    primitives: &Primitives<'_>,
+    face: u32,
+    images: &[Image; 2],
+    function: &[Int<3>; 2],
+) -> bool {
+    let lines = &primitives.lines;
+    // The part that passes the face is where these functions are positive.
+    let inside = primitives.outline(face).iter().map(|&half| {
+        let line = lines.exact(half);
+        let values = images.each_ref().map(|image| value_at(&line, image));
+        if half.is_negative() { values.map(|value| -value) } else { values }
+    });
+    let ahead = images.each_ref().map(|image| image[0].resize());
+    let all = inside.chain([ahead, function.each_ref().map(Int::resize)]);
+    // A point of the segment is a weighted mean of the ends. Here are the weights where the common part begins and
+    // where it ends, first that of the second end.
+    let [none, one] = [0, 1].map(Int::<11>::from);
+    let [mut from, mut to] = [[none, one], [one, none]];
+    let is_before = |a: &[Int<11>; 2], b: &[Int<11>; 2]| {
+        let [a, b]: [Int<22>; 2] = [a[0].times(&b[1]), b[0].times(&a[1])];
+        (a - b).is_negative()
+    };
+    for [first, second] in all {
+        match [first, second].map(|value| value.sign()) {
+            [Ordering::Less, Ordering::Greater] => {
+                let begin = [-first, second];
+                if is_before(&from, &begin) {
+                    from = begin;
+                }
+            }
+            [Ordering::Greater, Ordering::Less] => {
+                let end = [first, -second];
+                if is_before(&end, &to) {
+                    to = end;
+                }
+            }
+            [Ordering::Less, _] | [_, Ordering::Less] => return false,
+            _ => {}
+        }
+    }
+    is_before(&from, &to)
 }
 
 /// The line of the rays that meet the planes of two faces in one point.
@@ -544,7 +640,7 @@ impl Passes {
                         });
                     }
                 };
-                let behind = segment.behind(lines, faces, face, side);
+                let behind = segment.behind(primitives, faces, (face, chord));
                 let [from, to] = behind.unwrap_or([f64::INFINITY; 2]);
                 add(true, [from, to]);
                 add(false, [f64::NEG_INFINITY, from]);

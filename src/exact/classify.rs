@@ -134,6 +134,14 @@ impl PreparedPlane {
         }
     }
 
+    /// The distance by which a lattice point is further than the tolerance on one side of the plane, times the length
+    /// of the normal; negative for other points.
+    #[cfg(feature = "drawing")]
+    pub(crate) fn excess(&self, faces: &Faces, point: &[f64; 3], side: Ordering) -> Int<3> {
+        let (at, band) = (faces.plane(self.plane).at(point), Int::from_f64(self.band));
+        if side.is_gt() { at - band } else { -at - band }
+    }
+
     /// Whether `band` is the tolerance times the length of the exact normal, within a share of 10⁻⁹.
     #[cfg(feature = "validate")]
     pub(crate) fn has_length_of(&self, faces: &Faces) -> bool {
