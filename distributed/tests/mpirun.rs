@@ -174,6 +174,32 @@ fn files_that_ranks_share_are_one_scene() {
     same_on_all(folder.path(), ".", &views, 2000);
 }
 
+/// Squares in one plane, each in a file of its own, come in the order of the files, whichever rank reads them. Also
+/// squares that differ in height by less than the decimals of one of the files.
+#[test]
+#[ignore = "needs mpirun of Open MPI"]
+fn squares_in_one_plane_come_in_the_order_of_the_files() {
+    for step in [0.0, -0.000_002] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut materials = String::new();
+        for file in 0..5 {
+            materials += &format!("newmtl m{file}\nKd 0.{} 0.{} 0.5\n", file + 2, 9 - file);
+            let (x, z) = (0.5 * f64::from(file), step * f64::from(file));
+            let corners = [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 3.0), (x, 3.0)];
+            // The first file has fewer decimals than the others.
+            let line = |(x, y)| match file {
+                0 => format!("v {x:.3} {y:.3} {z:.3}\n"),
+                _ => format!("v {x:.9} {y:.9} {z:.9}\n"),
+            };
+            let text = corners.map(line).concat();
+            let text = format!("mtllib m.mtl\nusemtl m{file}\n{text}f 1 2 3 4\n");
+            fs::write(folder.path().join(format!("part{file}.obj")), text).unwrap();
+        }
+        fs::write(folder.path().join("m.mtl"), materials).unwrap();
+        same_on_all(folder.path(), ".", &["--eye=1.5,1,6 --target=1.5,1.5,0"], 1000);
+    }
+}
+
 /// A bad file on one rank, a budget that one rank exceeds, an output that rank 0 cannot write, and a
 /// command line that is wrong on all: one message, exit status 2, and no picture.
 #[test]

@@ -473,4 +473,18 @@ mod tests {
         assert!(camera().clip(&beside).is_empty());
         assert!(camera().clip(&[]).is_empty());
     }
+
+    /// Corners and edges exactly on the border of the picture are part of what is visible.
+    #[test]
+    fn corners_on_the_border_are_kept() {
+        let middle = DVec3::ZERO;
+        let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, middle, 8.0, [8, 8]).unwrap();
+        let whole = [[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]];
+        let diamond = [[0.0, -4.0], [4.0, 0.0], [0.0, 4.0], [-4.0, 0.0]];
+        for corners in [whole, diamond] {
+            let polygon = corners.map(|[x, y]| DVec3::new(x, y, 0.0));
+            let expected = corners.map(|[x, y]| [x + 4.0, 4.0 - y]);
+            assert_eq!(camera.clip(&polygon), expected);
+        }
+    }
 }

@@ -195,6 +195,13 @@ fn an_extent_that_cannot_be_divided_is_an_error() {
     wrong_too.merge(&wrong);
     wrong_too.merge(&all);
     assert!(options.partition(&wrong_too, none, 2).is_err());
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let bad = DVec3::new(0.0, bad, 0.0);
+        for [corner, opposite] in [[bad, DVec3::ONE], [DVec3::ONE, bad], [bad; 2]] {
+            let room = options.clone().with_bounds(corner, opposite);
+            assert!(room.partition(&all, none, 2).is_err(), "{corner} {opposite}");
+        }
+    }
     let partition = options.partition(&all, none, 4).unwrap();
     let mut reached = Vec::new();
     for bad in [f64::NAN, f64::INFINITY, 1e9] {
@@ -452,4 +459,18 @@ fn a_drawing_of_a_cell_is_an_error() {
     assert!(tree.is_of_cell() && !BspTree::build(&scene.polygons).unwrap().is_of_cell());
     let error = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap_err();
     assert!(error.to_string().contains("belongs to one cell"), "{error}");
+}
+
+/// Whether a point is inside a body is refused in the tree of a cell, also if the whole body lies in the cell.
+#[test]
+fn winding_numbers_are_refused_in_cells() {
+    let corner = |k: usize| DVec3::from([0, 1, 2].map(|axis| f64::from(k as u32 >> axis & 1)));
+    let sides =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let cube: Vec<Corners> = sides.iter().map(|side| side.map(corner).to_vec()).collect();
+    let inside = [0.5, 0.4, 0.3];
+    assert_eq!(BspTree::build(&cube).unwrap().winding_number(inside).unwrap(), Some(1));
+    let scene = Divided::new(cube, BuildOptions::DEFAULT, 1).unwrap();
+    let error = scene.cells[0].tree.winding_number(inside).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
 }

@@ -75,3 +75,18 @@ fn a_point_in_a_row_with_corners_is_hit_if_it_is_inside() {
         assert!(page.hit([960.0 + x, 540.0 + y]).is_none(), "{x} {y}");
     }
 }
+
+/// A card that another card cuts is hit once where its two pieces meet.
+#[test]
+fn a_layer_in_pieces_is_hit_once() {
+    let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
+    let card = [[-50.0, -50.0], [50.0, 50.0]];
+    let turned = |angle: f64| Layer::new(card, middle * DMat4::from_rotation_y(angle));
+    let page = page_on(VIEWPORT, true, [turned(0.5), turned(-0.5)]);
+    assert!(page.back_to_front().count() > 2, "no card is cut");
+    for y in [-40.0, 0.0, 30.0] {
+        let mut hits: Vec<usize> = page.hits([960.0, 540.0 + y]).map(|hit| hit.0).collect();
+        hits.sort_unstable();
+        assert_eq!(hits, [0, 1], "{y}");
+    }
+}

@@ -66,3 +66,22 @@ fn a_line_keeps_its_number() {
     assert_eq!((error.line(), error.clone().with_polygon(7).line()), (Some(0), Some(0)));
     assert_eq!(error.with_polygon(7).polygon(), None);
 }
+
+/// A reader that fails.
+struct Failing(std::io::ErrorKind);
+
+impl std::io::Read for Failing {
+    fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
+        Err(self.0.into())
+    }
+}
+
+/// Errors of a reader are equal if they are of the same kind.
+#[test]
+fn errors_of_files_are_compared_by_their_kinds() {
+    use std::io::ErrorKind::{NotFound, PermissionDenied};
+    let [missing, again, forbidden] = [NotFound, NotFound, PermissionDenied]
+        .map(|kind| BspTree::read(Failing(kind)).map(drop).unwrap_err());
+    assert_eq!(missing, again);
+    assert_ne!(missing, forbidden);
+}

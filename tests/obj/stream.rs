@@ -82,7 +82,13 @@ fn a_file_that_changes_meanwhile_is_an_error() {
     let stream = ObjStream::open(&path).unwrap();
     let broken = stream.read(|_, _| ControlFlow::Break(7)).unwrap();
     assert_eq!(broken, ControlFlow::Break(7));
-    for text in ["v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "v 0 0 0\nf 1 1 5\nf 1 2 2\n", "v x\n"] {
+    for text in [
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "v 0 0 0\nf 1 1 5\nf 1 2 2\n",
+        "v x\n",
+        // As many faces as before, and one more vertex.
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 3 2 4\n",
+    ] {
         fs::write(&path, text).unwrap();
         assert!(stream.read(|_, _| ControlFlow::<()>::Continue(())).is_err(), "{text}");
     }

@@ -200,6 +200,24 @@ fn shapes_on_one_another_follow_the_larger_one() {
     }
 }
 
+/// A card sticks out of the square on which it lies, and a still larger square begins where the card ends.
+#[test]
+fn a_card_does_not_follow_a_larger_shape_beside_it() {
+    let t = TAU_OF_SQUARES;
+    let bounds = [DVec3::splat(-50.0), DVec3::splat(50.0)];
+    let options = BuildOptions::DEFAULT.with_tolerance(t).with_bounds(bounds[0], bounds[1]);
+    let tree = options.build([square(40.0, 40.0, 1.0, 0.0)]).expect("a tree");
+    let mut overlay = Overlay::new(&tree);
+    for (side, z) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+        let [low, high] = [0.9, 1.8].map(|height| side * height * t);
+        let beside = square(15.5, -10.0, 20.0, high);
+        let all = [beside, square(0.0, 0.0, 15.0, low), square(14.5, 1.0, 1.0, high)];
+        overlay.replace(&tree, all).expect("on the grid");
+        let order = painted(&tree, &overlay, z);
+        assert!(is_after(&order, "3", "2"), "{side} {z}: {order:?}");
+    }
+}
+
 /// The plane of the tree cuts the larger of two polygons of the overlay, but not the small one that lies on it.
 #[test]
 fn a_plane_that_cuts_the_larger_shape_leaves_the_smaller_one_whole() {

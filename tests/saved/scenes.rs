@@ -77,6 +77,33 @@ fn damaged_scenes_are_refused_and_forged_ones_usable() {
     enough!(usable > 300, refused > 100; "{usable} {refused}");
 }
 
+/// Lists that have one item too few or too many.
+#[test]
+fn lists_of_another_length_than_the_scene_are_refused() {
+    let file = bytes(&full());
+    // The file ends with the list of lines, the attributes of nine corners, and the checksum.
+    let (lines, attributes) = (3, [20, 28, 16]);
+    let list = |item: usize| 8 + 9 * item;
+    let mut at = file.len() - 4 - attributes.map(list).iter().sum::<usize>() - (8 + lines * 8);
+    let lists = [("lines", lines, 8), ("texture", 9, 20), ("texture", 9, 28), ("texture", 9, 16)];
+    for (what, count, item) in lists {
+        assert_eq!(file[at..at + 8], (count as u64).to_le_bytes(), "{what}");
+        for other in [count - 1, count + 1] {
+            let mut forged = file.clone();
+            forged[at..at + 8].copy_from_slice(&(other as u64).to_le_bytes());
+            let first = at + 8;
+            match other < count {
+                true => drop(forged.drain(first..first + item)),
+                false => drop(forged.splice(first..first, file[first..first + item].to_vec())),
+            }
+            seal(&mut forged);
+            let error = Scene::read(&forged[..]).unwrap_err().to_string();
+            assert!(error.contains(what) && error.contains("do not match"), "{error}");
+        }
+        at += 8 + count * item;
+    }
+}
+
 #[test]
 fn a_tree_is_no_scene() {
     let mut file = Vec::new();

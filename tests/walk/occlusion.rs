@@ -72,6 +72,32 @@ fn paint_fragments(tree: &BspTree, order: &[u32], rays: &Rays) -> Vec<u32> {
     shown
 }
 
+/// A mask with cells of one pixel knows exactly which pixels are covered: a fragment passes if one of its own pixels is
+/// open, wherever other pixels of its rows are open.
+#[test]
+fn a_fragment_passes_if_one_of_its_pixels_is_open() {
+    let mut outcomes = [0; 2];
+    for tree in trees().into_iter().filter(|tree| tree.len() > 1) {
+        let bounds = tree.bounds().unwrap();
+        for camera in view::views(bounds, DVec3::Z, 2, [131, 29], 9).unwrap() {
+            let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
+            let mut mask = CoverageMask::new(&tree, &rays, 1);
+            let mut is_covered = vec![false; 131 * 29];
+            let order = tree.order(camera.viewpoint()).front_to_back();
+            for fragment in order.into_iter().take(300) {
+                let alone = paint_order(&tree, &[fragment.index()], &rays);
+                let owned = alone.faces().iter().map(|&face| face == fragment.face());
+                let passes =
+                    owned.clone().zip(&is_covered).any(|(owned, &covered)| owned && !covered);
+                assert_eq!(mask.cover(&fragment), passes, "{}", fragment.index());
+                owned.zip(&mut is_covered).for_each(|(owned, covered)| *covered |= owned);
+                outcomes[usize::from(passes)] += 1;
+            }
+        }
+    }
+    assert!(outcomes.iter().all(|&count| count > 500), "{outcomes:?}");
+}
+
 #[test]
 fn walls_save_most_visits() {
     let tree = BspTree::build(cells(10, &mut Dice(10))).unwrap();

@@ -295,6 +295,11 @@ fn what_is_wrong_is_named() {
             stl("vertex 0.1", "vertex nan"),
             "line 4, facet 0 (from 0): expected `vertex`",
         ),
+        (
+            MeshKind::Stl,
+            stl("vertex 0.1", "outer # "),
+            "facet 0 (from 0): fewer than three corners",
+        ),
         (MeshKind::Stl, cut(stl_text(), 40), "facet 3 (from 0): truncated"),
         (MeshKind::Stl, stl("outer loop", "inner loop"), "inner is out of place in an STL file"),
         (MeshKind::BinaryStl, lying(5), "truncated: 5 triangles declared, 4 found"),
@@ -436,6 +441,37 @@ fn ply_files_have_strips_of_triangles() {
         let message = read(MeshKind::Ply, file.as_bytes()).unwrap_err();
         let problem = format!("index {index} is out of range: 4 vertices");
         assert!(message.contains(&problem), "{message}");
+    }
+}
+
+/// In a strip every other triangle is turned over, and a fan turns around its first corner: all triangles of a flat shape
+/// have their fronts up. The orders of corners are those of glTF 2.0, section 3.7.2.1.
+#[test]
+fn gltf_strips_and_fans_keep_their_fronts() {
+    let places = |corners: [[f32; 2]; 5]| corners.map(|[x, y]| [x, y, 0.0]);
+    let zigzag = places([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.0, 2.0]]);
+    let round = places([[0.0, 0.0], [2.0, 0.0], [3.0, 1.0], [2.0, 2.0], [0.0, 2.0]]);
+    let strip = [[0, 1, 2], [1, 3, 2], [2, 3, 4]];
+    let fan = [[1, 2, 0], [2, 3, 0], [3, 4, 0]];
+    for (mode, corners, triangles) in [(5, zigzag, strip), (6, round, fan)] {
+        let buffer = little(corners.into_iter().flatten());
+        let file = format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"mode":{mode}}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3","min":[0,0,0],"max":[3,2,0]}}],
+            "bufferViews":[{{"buffer":0,"byteLength":60}}],
+            "buffers":[{{"uri":"data:;base64,{}","byteLength":60}}]}}"#,
+            STANDARD.encode(buffer)
+        );
+        let scene = read(MeshKind::Gltf, file.as_bytes()).unwrap();
+        let expected = triangles.map(|t| t.map(|k| DVec3::from(corners[k].map(f64::from))));
+        assert_eq!(scene.len(), 3, "mode {mode}");
+        for (number, triangle) in expected.iter().enumerate() {
+            assert_eq!(scene.polygon(number), triangle, "mode {mode}");
+        }
+        for [a, b, c] in expected {
+            assert!((b - a).cross(c - a).z > 0.0, "the case is wrong: {a} {b} {c}");
+        }
     }
 }
 

@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
+use binspace::glam::DVec3;
+
 use crate::draw::{CARDS, CARDS_MATERIALS, CARDS_VIEW, figures};
 use crate::run::{CROSSING, Folder};
 use crate::svg_picture::Svg;
@@ -297,5 +299,34 @@ fn all_lines_are_drawn_to_scale() {
             let high = places.fold(f64::MIN, f64::max);
             assert!((high - low - side * scale).abs() < 1e-4, "{scale}: from {low} to {high}");
         }
+    }
+}
+
+/// A card across the view has its upper and lower edges along the border of a picture without a margin.
+#[test]
+fn edges_along_the_border_are_drawn_in_perspective() {
+    let folder = Folder::new("dxf_border");
+    // The view of a scene without a view of its own.
+    let from = DVec3::new(0.45, -0.8, 0.4).normalize();
+    let right = DVec3::Z.cross(from).normalize();
+    let up = from.cross(right);
+    for (width, height) in [(1.0, 1.0), (1.5, 1.0), (2.0, 1.3), (0.7, 1.1), (3.0, 3.0)] {
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let corners = corners.map(|(x, y)| right * (x * width) + up * (y * height));
+        let text = corners.map(|DVec3 { x, y, z }| format!("v {x:?} {y:?} {z:?}\n")).concat();
+        folder.write("s.obj", text + "f 1 2 3 4\n");
+        let size = format!("{:.0}x{:.0}", 200.0 * width, 200.0 * height);
+        folder.run(&format!("draw s.obj --up z --margin 0 --size {size} -o a.dxf")).good();
+        let dxf = Dxf::parse(&fs::read_to_string(folder.path("a.dxf")).unwrap());
+        let lengths = dxf.lines.iter().map(|line| {
+            let mut points = line.points.clone();
+            points.extend(line.is_closed.then(|| line.points[0]));
+            points
+                .windows(2)
+                .map(|ends| (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1]))
+                .sum::<f64>()
+        });
+        let (length, around) = (lengths.sum::<f64>(), 2.0 * (dxf.extent[0] + dxf.extent[1]));
+        assert!((length / around - 1.0).abs() < 1e-4, "{size}: {length} of {around}");
     }
 }

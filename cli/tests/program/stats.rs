@@ -33,8 +33,11 @@ fn the_table_is_aligned_and_narrow() {
     assert!(widths.iter().all(|&width| width == widths[0] && width <= 80), "{out}");
     assert!(out.starts_with("random:100: 100 polygons, 100 faces; 0 dropped"), "{out}");
     assert!(!out.contains('\u{1b}'), "colours are for terminals");
+    // Only names that do not fit are cut.
+    assert!(out.contains("fewest-splits") && !out.contains('…'), "{out}");
     let out = folder.run("stats random:10 --heuristic weighted(12.5,1.25,0.125)").good();
     assert!(out.lines().all(|line| line.chars().count() <= 80), "{out}");
+    assert!(out.contains("weighted(12.…"), "{out}");
 }
 
 #[test]

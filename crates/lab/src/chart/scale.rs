@@ -126,5 +126,8 @@ mod tests {
     fn powers_are_written_with_raised_figures() {
         let labels = [-12.0, -1.0, 0.0, 2.0, 3.0, 2f64.log10(), 12f64.log10()].map(label);
         assert_eq!(labels, ["10⁻¹²", "0.1", "1", "100", "1000", "2", "12"]);
+        // Decimals from 0.01 to 5000.
+        let ends = [5e-3, 0.01, 5e3, 1e4, 2e4].map(|value: f64| label(value.log10()));
+        assert_eq!(ends, ["5·10⁻³", "0.01", "5000", "10⁴", "2·10⁴"]);
     }
 }
