@@ -65,6 +65,15 @@ def test_the_judge_finds_what_mplot3d_draws_wrong(scene):
     assert compare.judged(scene, "3d", dpi=100).percent > 0.5
 
 
+def test_only_pixels_with_equal_pixels_all_around_are_judged():
+    for other in (-1, 1):
+        numbers = np.zeros((9, 9), int)
+        numbers[4, 4] = other
+        expected = np.ones((9, 9), bool)
+        expected[2:7, 2:7] = False
+        assert (compare._is_alike(numbers) == expected).all()
+
+
 def picture(draw, projection, **options):
     figure = plt.figure(figsize=(4, 4), dpi=80)
     draw(figure.add_subplot(projection=projection), **options)
