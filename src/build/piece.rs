@@ -115,6 +115,14 @@ impl Piece {
         }
     }
 
+    /// Whether the piece's box comes within a distance of another piece's box.
+    pub(crate) fn touches(&self, other: &Self, distance: f64) -> bool {
+        (0..3).all(|axis| {
+            other.min[axis] <= self.max[axis] + distance
+                && self.min[axis] <= other.max[axis] + distance
+        })
+    }
+
     /// The number of the piece's vertices in the arena.
     pub(crate) fn cut_len(&self) -> usize {
         self.len as usize
@@ -282,31 +290,6 @@ pub(crate) struct Splitter {
 }
 
 impl Splitter {
-    /// The rounded vertices of the parts of a piece that spans a plane: the part in front, and the part behind.
-    pub(crate) fn outlines(
-        &mut self,
-        faces: &Faces,
-        plane: &PreparedPlane,
-        piece: &Piece,
-        arena: &[Vertex],
-    ) -> [Outline; 2] {
-        self.divide(faces, plane, piece, arena);
-        [&self.front, &self.back].map(|part| part.iter().map(Vertex::position).collect())
-    }
-
-    /// Cuts a piece that spans a plane, into `front` and `back`.
-    fn divide(&mut self, faces: &Faces, plane: &PreparedPlane, piece: &Piece, arena: &[Vertex]) {
-        let Self { outline, front, back } = self;
-        let vertices = piece.cut_vertices(arena).unwrap_or_else(|| {
-            outline.clear();
-            outline.extend(Vertex::corners(faces, piece.face));
-            outline
-        });
-        front.clear();
-        back.clear();
-        split(faces, plane, piece.face, vertices, front, back);
-    }
-
     /// Cuts a piece that spans a plane. Appends the vertices of the two parts to the arena, and returns the
     /// part in front and the part behind.
     pub(crate) fn cut(
@@ -316,8 +299,15 @@ impl Splitter {
         piece: &Piece,
         arena: &mut Vec<Vertex>,
     ) -> Result<[Piece; 2], Error> {
-        self.divide(faces, plane, piece, arena);
-        let Self { front, back, .. } = self;
+        let Self { outline, front, back } = self;
+        let vertices = piece.cut_vertices(arena).unwrap_or_else(|| {
+            outline.clear();
+            outline.extend(Vertex::corners(faces, piece.face));
+            outline
+        });
+        front.clear();
+        back.clear();
+        split(faces, plane, piece.face, vertices, front, back);
         // The piece's own vertices stay behind as garbage until the arena is compacted or truncated.
         let start = arena.len();
         reserve(arena, front.len() + back.len())?;

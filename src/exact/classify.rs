@@ -188,6 +188,27 @@ impl PreparedPlane {
         (self.side_of_extent(faces, face, cut, [low, high]), reaches)
     }
 
+    /// Whether a piece reaches beyond one side of the plane by more than the tolerance, given the other side.
+    pub(crate) fn leaves(
+        &self,
+        faces: &Faces,
+        face: u32,
+        cut: Option<&[Vertex]>,
+        inside: Side,
+    ) -> bool {
+        let (low, high) = match cut {
+            Some(vertices) => self.extent(vertices.iter().map(|vertex| vertex.position)),
+            None => self.extent(faces.corners(face).iter().copied()),
+        };
+        (if inside == Side::Front { -low } else { high }) > self.band + self.bound
+    }
+
+    /// Whether some part of a piece with these rounded vertices may be within twice the tolerance of the plane.
+    pub(crate) fn comes_near(&self, vertices: &[[f64; 3]]) -> bool {
+        let (low, high) = self.extent(vertices.iter().copied());
+        low <= self.twice() && high >= -self.twice()
+    }
+
     /// Whether a whole piece may be within twice the tolerance of the plane.
     pub(crate) fn stays_near(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> bool {
         let (low, high) = match cut {

@@ -11,8 +11,9 @@ use super::lattice::{LIMIT, MAX_TOLERANCE};
 use super::names::MAX_NAMES;
 #[cfg(any(feature = "save", feature = "validate"))]
 use super::names::PlaneKind;
+use super::plane::{RoundedNormal, have_area};
 #[cfg(feature = "layers")]
-use super::{Flattener, cross, have_area, is_convex};
+use super::{Flattener, cross, is_convex};
 use super::{Lattice, PlaneId};
 use crate::error::{Error, Kind};
 use crate::memory::{collect, push, reserve};
@@ -57,14 +58,16 @@ impl fmt::Debug for Faces {
     }
 }
 
-/// The number of faces at the end that have no area: first segments, then points.
+/// The number of faces at the end that have no area: first segments, then points, then borders.
 ///
 /// A segment has three corners: its ends, and a corner that is not collinear with them. The third corner is
-/// never drawn: it selects one of the planes through the segment. A point has one corner, and no plane.
+/// never drawn: it selects one of the planes through the segment. A point has one corner, and no plane. A border is no
+/// shape and does not count as a face: it only defines a plane, through an edge of a face.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Thin {
     pub(crate) segments: usize,
     pub(crate) points: usize,
+    pub(crate) borders: usize,
 }
 
 /// Marks a corner if the edge from this corner to the next is not an edge of the polygon.
@@ -109,14 +112,14 @@ impl Frame {
 }
 
 impl Faces {
-    /// Returns the number of faces.
+    /// Returns the number of faces, without borders.
     pub fn len(&self) -> usize {
-        self.faces.len()
+        self.faces.len() - self.thin.borders
     }
 
     /// Returns whether there are no faces.
     pub fn is_empty(&self) -> bool {
-        self.faces.is_empty()
+        self.len() == 0
     }
 
     /// Returns the grid that the corners lie on.
@@ -164,7 +167,12 @@ impl Faces {
 
     /// The first face that has no area: an overlay's segments and points follow its polygons.
     pub(crate) fn first_thin(&self) -> usize {
-        self.len() - self.thin.segments - self.thin.points
+        self.first_point() - self.thin.segments
+    }
+
+    /// The first face that is a point.
+    pub(crate) fn first_point(&self) -> usize {
+        self.len() - self.thin.points
     }
 
     /// Whether a face is a polygon, not a segment or a point.
@@ -175,15 +183,32 @@ impl Faces {
     /// The number of leading corners that belong to a face: two for a segment, one for a point, and all
     /// corners for other faces.
     pub(crate) fn reach(&self, face: u32) -> usize {
-        let Thin { segments, points } = self.thin;
-        let from_end = self.len() - face as usize;
-        if from_end <= points {
-            1
-        } else if from_end <= points + segments {
+        if self.has_area(face) {
+            self.corner_range(face).len()
+        } else if (face as usize) < self.first_point() {
             2
         } else {
-            self.corner_range(face).len()
+            1
         }
+    }
+
+    /// Adds a border: a plane through edge `k` of a face, along the axis nearest to the face's normal. Returns `None` if
+    /// the face is so thin that this plane is not defined.
+    pub(crate) fn push_border(&mut self, face: u32, k: u32) -> Result<Option<PlaneId>, Error> {
+        let corners = self.corners(face);
+        let [p, q] = [k as usize, (k as usize + 1) % corners.len()].map(|k| corners[k]);
+        let axis = RoundedNormal::through(self.triangle(face)).dominant_axis();
+        // As long as the edge, towards the middle of the grid.
+        let length = (0..3).map(|i| (q[i] - p[i]).abs()).fold(0.0, f64::max).min(LIMIT);
+        let mut r = p;
+        r[axis] += if p[axis] < 0.0 { length } else { -length };
+        if !have_area([p, q, r]) {
+            return Ok(None);
+        }
+        let border = self.faces.len() as u32;
+        self.push(0, [p, q, r].into_iter(), Frame::TRIANGLE)?;
+        self.thin.borders += 1;
+        Ok(Some(PlaneId::face(border)))
     }
 
     /// Returns the lattice point of a corner, counted over all faces.

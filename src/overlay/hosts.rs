@@ -1,18 +1,14 @@
 //! The polygons of a tree on which an overlay's shapes lie.
-//!
-//! A shape can lie on a partition plane of the tree and also on a larger polygon that leaves this plane: the plane of a
-//! small polygon is less certain, and extended across a large polygon in the same plane it can deviate from that
-//! polygon by more than the tolerance. The tree then has the large polygon on one side of the plane, and the shape
-//! has to go there too.
 
 use std::ops::Range;
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::region::Ground;
 use crate::build::piece::Piece;
 use crate::error::Error;
-use crate::exact::{Faces, Outline, PlaneId, PreparedPlane, Side, Vertex};
+use crate::exact::{EdgeLine, Faces, Outline, PlaneId, PreparedPlane, Side, Vertex};
 use crate::memory::{place, push};
 use crate::progress::Watch;
 use crate::tree::bounds::outwards;
@@ -59,14 +55,15 @@ impl Hosts {
         self.of_shapes.resize(shapes, None);
     }
 
-    /// The side of a node's plane on which the largest host of a piece is; `None` without a host. `side` is the piece's
-    /// own side. If the plane has cut the host and the piece overlaps both parts, the piece's side is exact.
-    pub(super) fn side(
+    /// Appends the hosts of a piece at a node of the tree, those of the largest polygon first. `side` is the piece's own
+    /// side of the node's plane. Of a piece that leaves the plane, only hosts that come near it count.
+    pub(super) fn at(
         &mut self,
         at: &At<'_>,
         (piece, arena): (&Piece, &[Vertex]),
-        side: Side,
-    ) -> Result<Option<Side>, Error> {
+        (side, is_within): (Side, bool),
+        found: &mut Vec<Host>,
+    ) -> Result<(), Error> {
         let &At { ground, faces, plane, watch, .. } = at;
         let Ranges { own, front, back } = at.node;
         let all = own.start..front.end.max(back.end);
@@ -82,8 +79,11 @@ impl Hosts {
             Some(known) if is_part(known) => known.hosts.clone(),
             _ => {
                 outline = piece.outline(faces, arena);
-                if side == Side::Coplanar && at.is_inside(&outline) {
-                    return Ok(Some(side));
+                if side == Side::Coplanar
+                    && let Some(fragment) = at.around(&outline)
+                {
+                    let origin = Origin::Fragment(fragment);
+                    return push(found, Host { origin, side, is_cut: false });
                 }
                 let start = fragments.len();
                 at.find(all.clone(), piece.face, &outline, fragments)?;
@@ -97,28 +97,72 @@ impl Hosts {
             outline = piece.outline(faces, arena);
         }
         let parts = [(own, Side::Coplanar), (front, Side::Front), (back, Side::Back)];
-        let mut largest: Option<(u32, Side)> = None;
-        for &host in hosts {
-            let Some((_, side)) = parts.iter().find(|(part, _)| part.contains(&host)) else {
-                continue;
-            };
-            let face = ground.face(host);
-            match largest {
-                Some((of, _)) if of != face => break,
-                Some((_, first)) if first == *side => continue,
-                _ => {}
-            }
+        for &fragment in hosts {
+            let part = parts.iter().find(|(part, _)| part.contains(&fragment));
+            let (Some(&(_, side)), origin) = (part, Origin::Fragment(fragment)) else { continue };
             watch.work(1)?;
+            let host = ground.fragment(faces, fragment);
+            let is_cut = host.lines().any(|line| line.as_cut() == Some(plane.id()));
+            let vertices = vertices(host);
+            // The plane cuts a piece that leaves the plane as it has cut the host.
+            let counts =
+                is_within || !is_cut && (side == Side::Coplanar || plane.comes_near(&vertices));
             // The shape may have been cut since its hosts were found.
-            if !faces.overlap(face, [&outline, &vertices(ground.fragment(faces, host))]) {
-                continue;
+            if counts && faces.overlap(host.face(), [&outline, &vertices]) {
+                push(found, Host { origin, side, is_cut })?;
             }
-            if largest.is_some() {
-                return Ok(Some(piece.exact_side(faces, plane, arena)));
-            }
-            largest = Some((face, *side));
         }
-        Ok(largest.map(|(_, side)| side))
+        Ok(())
+    }
+}
+
+/// A polygon on which a piece lies, and its side of a plane.
+#[derive(Clone, Debug)]
+pub(super) struct Host {
+    pub(super) origin: Origin,
+    pub(super) side: Side,
+    /// Whether the plane bounds the polygon.
+    pub(super) is_cut: bool,
+}
+
+/// A polygon of a tree, or of the overlay.
+#[derive(Clone, Debug)]
+pub(super) enum Origin {
+    Fragment(u32),
+    Piece(Piece),
+}
+
+impl Host {
+    /// The face and the vertices.
+    pub(super) fn outline(
+        &self,
+        ground: Ground<'_>,
+        faces: &Faces,
+        arena: &[Vertex],
+    ) -> (u32, Outline) {
+        match self.origin {
+            Origin::Fragment(fragment) => {
+                let fragment = ground.fragment(faces, fragment);
+                (fragment.face(), vertices(fragment))
+            }
+            Origin::Piece(piece) => (piece.face, piece.outline(faces, arena)),
+        }
+    }
+
+    /// The lines that bound the polygon.
+    pub(super) fn lines(
+        &self,
+        ground: Ground<'_>,
+        faces: &Faces,
+        arena: &[Vertex],
+    ) -> SmallVec<[EdgeLine; 4]> {
+        match self.origin {
+            Origin::Fragment(fragment) => ground.fragment(faces, fragment).lines().collect(),
+            Origin::Piece(piece) => match piece.cut_vertices(arena) {
+                Some(cut) => cut.iter().map(Vertex::line).collect(),
+                None => Vertex::corners(faces, piece.face).map(|corner| corner.line()).collect(),
+            },
+        }
     }
 }
 
@@ -127,11 +171,11 @@ impl Hosts {
 const FEW: usize = 8;
 
 impl At<'_> {
-    /// Whether a piece lies within a polygon that has the node's plane. Then the polygon is a host, and most often the
-    /// only one: if a larger polygon that is coplanar with it and overlaps it left the plane, the tree would usually
-    /// have that polygon's plane instead.
-    fn is_inside(&self, outline: &Outline) -> bool {
-        self.node.own.clone().take(FEW).any(|number| {
+    /// A fragment with the node's plane within which a piece lies. It is a host, and most often the only one: if a
+    /// larger polygon that is coplanar with it and overlaps it left the plane, the tree would usually have that
+    /// polygon's plane instead.
+    fn around(&self, outline: &Outline) -> Option<u32> {
+        self.node.own.clone().take(FEW).find(|&number| {
             let fragment = self.ground.fragment(self.faces, number);
             PlaneId::face(fragment.face()) == self.plane.id()
                 && self.faces.is_inside(fragment.face(), [outline, &vertices(fragment)])

@@ -1,5 +1,7 @@
 //! Moving polygons, lines and points beside a tree that does not change.
 
+mod borders;
+mod following;
 mod hosts;
 mod order;
 pub(crate) mod place;

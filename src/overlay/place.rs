@@ -5,11 +5,10 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::hosts::{At, Hosts};
+use super::following::{Beside, Following};
 use super::order::{InsertionTree, Place, SlotSide};
 use super::region::{CellTree, Ground, Opened, Region, Whose};
 use super::thin::{Anchors, between};
-use crate::build::choose::{NearPiece, NearSet, follow_larger};
 use crate::build::frames::OverlayBuilder;
 use crate::build::piece::{Piece, Splitter};
 use crate::error::{Error, Kind};
@@ -30,7 +29,7 @@ pub(super) struct Placer {
     cells: OverlayBuilder,
     cell: CellTree,
     anchors: Anchors,
-    hosts: Hosts,
+    following: Following,
     /// A stack of the sets still to be divided, with the next set on top. Each set is in the order of faces:
     /// polygons, then lines, then points.
     pieces: Vec<Piece>,
@@ -39,9 +38,8 @@ pub(super) struct Placer {
     pending: Vec<Pending>,
     front: Vec<Piece>,
     own: Vec<Piece>,
-    /// The side of each piece of a set, and the pieces near the plane.
+    /// The side of each piece of a set.
     sides: Vec<Side>,
-    near: Vec<NearPiece>,
     /// The box of the set on top of the stack, if that set moved to one side of a plane as a whole.
     crowd: Option<[DVec3; 2]>,
     splitter: Splitter,
@@ -60,7 +58,7 @@ struct Pending {
 /// The data that one placing reads and writes.
 struct Work<'a> {
     tree: &'a BspTree,
-    faces: &'a Faces,
+    faces: &'a mut Faces,
     /// The first face without area.
     thin: u32,
     placer: &'a mut Placer,
@@ -74,7 +72,7 @@ impl Placer {
     pub(super) fn place(
         &mut self,
         tree: &BspTree,
-        faces: &Faces,
+        faces: &mut Faces,
         pieces: &mut Parts,
         insertions: &mut InsertionTree,
         watch: &Watch<'_>,
@@ -94,10 +92,10 @@ impl Placer {
 
 impl Work<'_> {
     fn begin(&mut self) -> Result<(), Error> {
-        let Self { tree, faces, thin, watch, .. } = *self;
-        let Placer { pieces, arena, pending, anchors, hosts, crowd, .. } = &mut *self.placer;
+        let (tree, faces, thin, watch) = (self.tree, &*self.faces, self.thin, self.watch);
+        let Placer { pieces, arena, pending, anchors, following, crowd, .. } = &mut *self.placer;
         anchors.fill(faces, watch)?;
-        hosts.reset(faces.len() - tree.faces.len());
+        following.reset(faces.len() - tree.faces.len());
         pieces.clear();
         arena.clear();
         pending.clear();
@@ -188,41 +186,36 @@ impl Work<'_> {
     }
 
     /// Divides the topmost set of the stack: pieces behind stay on the stack, pieces in front go to `front`,
-    /// and pieces on the plane to `own`. A piece near the plane follows the polygon on which it lies, in the set
-    /// ([`follow_larger`]) or in the tree ([`Hosts`]).
+    /// and pieces on the plane to `own`. Pieces near the plane [follow](Following) the polygons on which they lie.
     fn divide(
         &mut self,
         start: usize,
         prepared: &PreparedPlane,
         opened: &Opened,
     ) -> Result<(), Error> {
-        let Placer { cell, pieces, arena, front, own, sides, near, splitter, hosts, .. } =
+        let Placer { cell, pieces, arena, front, own, sides, splitter, following, .. } =
             &mut *self.placer;
-        let Self { tree, faces, watch, .. } = *self;
+        let (tree, faces, watch) = (self.tree, &mut *self.faces, self.watch);
         let ground = match opened.sides[0].of {
             Whose::Tree => Ground::Tree(tree),
             Whose::Cell => Ground::Cell(cell),
         };
-        let (node, first) = (opened.ranges(), tree.faces.len() as u32);
+        let (node, first) = (&opened.ranges(), tree.faces.len() as u32);
+        let beside = Beside { ground, first, plane: prepared, node, watch };
         let may_follow = faces.tolerance() > 0.0
             && !(node.own.is_empty() && node.front.is_empty() && node.back.is_empty());
-        near.clear();
+        following.begin();
         sides.clear();
-        for (piece, i) in pieces[start..].iter().zip(0..) {
+        for (piece, place) in pieces[start..].iter().zip(0..) {
             let cut = piece.cut_vertices(arena);
             let (mut side, reaches) = prepared.classify_and_reach(faces, piece.face, cut);
             if may_follow && reaches {
-                let is_within = prepared.stays_near(faces, piece.face, cut);
-                near.push(NearPiece { piece: i, is_within });
-                if is_within {
-                    let at = At { ground, faces, first, plane: prepared, node: &node, watch };
-                    side = hosts.side(&at, (piece, arena), side)?.unwrap_or(side);
-                }
+                let of_hosts = following.add(faces, &beside, (place, piece, arena), side)?;
+                side = of_hosts.unwrap_or(side);
             }
             sides.push(side);
         }
-        let set = NearSet { faces, pieces: &pieces[start..], arena, plane: prepared };
-        follow_larger(&set, near, sides, splitter, watch)?;
+        following.settle(faces, &beside, (pieces, start, sides), (arena, splitter))?;
         let mut back = start;
         for (i, &side) in (start..).zip(&*sides) {
             let piece = pieces[i];
@@ -370,7 +363,7 @@ impl super::Overlay {
 
     /// All points of the overlay on the grid, in input order.
     pub(crate) fn given_points(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        let first = self.faces.len() - self.faces.thin.points;
+        let first = self.faces.first_point();
         (0..self.faces.thin.points).map(move |i| self.faces.corners((first + i) as u32)[0])
     }
 }

@@ -283,17 +283,15 @@ impl Overlay {
     pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
         let face = self.record(number)?.face;
         let piece = self.stored(number);
-        let thin = self.faces.thin;
-        let from_end = self.faces.len() - face as usize;
-        Some(if from_end <= thin.points {
+        Some(if self.faces.has_area(face) {
+            Shape::Fragment(piece)
+        } else if (face as usize) < self.faces.first_point() {
+            let at = face as usize - self.faces.first_thin();
+            Shape::Segment(Segment { piece, number: self.segments[at] })
+        } else {
             let position = piece.vertices().next().unwrap_or_default();
             let point = self.faces.polygon(face) as u32;
             Shape::Marker(Marker { index: number, point, position })
-        } else if from_end <= thin.points + thin.segments {
-            let at = thin.points + thin.segments - from_end;
-            Shape::Segment(Segment { piece, number: self.segments[at] })
-        } else {
-            Shape::Fragment(piece)
         })
     }
 

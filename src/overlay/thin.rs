@@ -144,7 +144,7 @@ pub(super) struct Anchors {
 impl Anchors {
     /// Finds the segments of all points.
     pub(super) fn fill(&mut self, faces: &Faces, watch: &Watch<'_>) -> Result<(), Error> {
-        let Thin { segments, points } = faces.thin;
+        let Thin { segments, points, .. } = faces.thin;
         self.first = (faces.len() - points) as u32;
         self.segments.clear();
         if points == 0 {

@@ -320,7 +320,9 @@ impl<'t> Oracle<'t> {
         let piece = self.overlay.and_then(|overlay| overlay.piece(fragment));
         let fragment = piece.unwrap_or_else(|| self.tree.fragment(fragment));
         let face = self.model(fragment.face());
-        fragment.vertex_ids().map(|vertex_id| face.resolve(self.faces(), vertex_id)).collect()
+        // A piece of the overlay may be cut by planes that are no face of a polygon.
+        let faces = self.overlay.map_or(self.faces(), |overlay| overlay.faces());
+        fragment.vertex_ids().map(|vertex_id| face.resolve(faces, vertex_id)).collect()
     }
 
     fn line(&self, ray: Ray) -> Line {

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 use super::ChooseContext;
 use super::set::Set;
 use crate::Error;
-use crate::build::piece::{Division, Piece, Splitter};
+use crate::build::piece::{Division, Piece};
 use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, RoundedNormal, Side, Vertex};
 use crate::progress::Watch;
 
@@ -107,8 +107,8 @@ pub(super) fn larger(
         }
         let mut compared = 0;
         let touching = on.touching(set.pieces, other, tolerance).inspect(|_| compared += 1);
-        let touching = touching
-            .filter(|&&piece| Bounds::of(&set.pieces[piece as usize]).touches(other, tolerance));
+        let touching =
+            touching.filter(|&&piece| set.pieces[piece as usize].touches(other, tolerance));
         // A piece that is coplanar with the set's own face is never cut, even far from it.
         for &piece in touching.chain(own.filter(|_| is_cut)) {
             let piece = &set.pieces[piece as usize];
@@ -133,86 +133,24 @@ pub(super) fn larger(
     Ok(best)
 }
 
-/// A piece of a set that comes within twice the tolerance of a plane.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct NearPiece {
-    /// Its number in the set.
-    pub(crate) piece: u32,
-    /// Whether all of it is within that distance.
-    pub(crate) is_within: bool,
-}
-
-/// Pieces beside a plane.
-pub(crate) struct NearSet<'a> {
-    pub(crate) faces: &'a Faces,
-    pub(crate) pieces: &'a [Piece],
-    pub(crate) arena: &'a [Vertex],
-    pub(crate) plane: &'a PreparedPlane,
-}
-
-/// Moves pieces that are entirely `near` a plane to the side of the largest polygon of the set that is coplanar with
-/// the piece and overlaps it. If the plane cuts that polygon and the piece overlaps both parts, the plane cuts the
-/// piece too, however near it is.
-pub(crate) fn follow_larger(
-    set: &NearSet<'_>,
-    near: &mut Vec<NearPiece>,
-    sides: &mut [Side],
-    splitter: &mut Splitter,
-    watch: &Watch<'_>,
-) -> Result<(), Error> {
-    let side = |near: &NearPiece| sides[near.piece as usize];
-    if near.windows(2).all(|two| side(&two[0]) == side(&two[1])) {
-        return Ok(());
-    }
-    let &NearSet { faces, pieces, arena, plane } = set;
-    let (face, tolerance) = (|piece: u32| pieces[piece as usize].face, faces.tolerance());
-    let is_leader = |near: &NearPiece| {
-        faces.has_area(face(near.piece))
-            && (near.is_within || !is_steep(faces, face(near.piece), plane.normal(), 2.0 * STEEP))
-    };
-    let leaders: SmallVec<[u32; FEW]> =
-        near.iter().filter(|near| is_leader(near)).map(|near| near.piece).collect();
-    let leaders = SortedPieces::of(pieces, &leaders);
-    near.retain(|near| near.is_within);
-    near.sort_unstable_by(|a, b| {
-        faces.largest_first(face(a.piece), face(b.piece)).then(a.piece.cmp(&b.piece))
-    });
-    for &NearPiece { piece: small, .. } in &*near {
-        let piece = &pieces[small as usize];
-        let (mut largest, mut compared): (Option<u32>, _) = (None, 0);
-        for &other in leaders.touching(pieces, piece, tolerance) {
-            compared += 1;
-            if faces.largest_first(face(other), face(largest.unwrap_or(small))).is_lt()
-                && Bounds::of(&pieces[other as usize]).touches(piece, tolerance)
-                && faces.are_coplanar(face(other), face(small))
-                && overlap(faces, arena, &pieces[other as usize], piece)
-            {
-                largest = Some(other);
-            }
-        }
-        watch.work(compared)?;
-        let Some(largest) = largest else { continue };
-        sides[small as usize] = match sides[largest as usize] {
-            Side::Spanning => {
-                let largest = &pieces[largest as usize];
-                let outline = piece.outline(faces, arena);
-                let parts = splitter.outlines(faces, plane, largest, arena);
-                match parts.map(|part| faces.overlap(largest.face, [&part, &outline])) {
-                    [true, false] => Side::Front,
-                    [false, true] => Side::Back,
-                    _ => piece.exact_side(faces, plane, arena),
-                }
-            }
-            side => side,
-        };
-    }
-    Ok(())
-}
-
 /// The sine of the largest angle between a plane and a face that may be coplanar with a piece on the plane.
 /// (Only pieces less than twenty times as wide as the tolerance lie on planes at larger angles.) Too small:
 /// wider pieces lose input order. Too large: neighbours in a mesh are examined in vain.
 const STEEP: f64 = 0.1;
+
+/// Whether a polygon, a segment or a point may be coplanar with a piece that is within twice the tolerance of a plane
+/// with a normal.
+pub(crate) fn is_along(faces: &Faces, face: u32, normal: DVec3) -> bool {
+    match faces.corners(face)[..faces.reach(face)] {
+        [_] => true,
+        [p, q] => {
+            let along = DVec3::from(q) - DVec3::from(p);
+            let most = 4.0 * STEEP * STEEP * normal.length_squared() * along.length_squared();
+            normal.dot(along).powi(2) <= most
+        }
+        _ => !is_steep(faces, face, normal, 2.0 * STEEP),
+    }
+}
 
 /// Whether a face is at an angle of more than a given sine to a plane with a normal.
 fn is_steep(faces: &Faces, face: u32, normal: DVec3, sine: f64) -> bool {
@@ -229,10 +167,6 @@ struct Bounds {
 }
 
 impl Bounds {
-    fn of(piece: &Piece) -> Self {
-        Self { min: piece.min, max: piece.max }
-    }
-
     fn include(&mut self, piece: &Piece) {
         for axis in 0..3 {
             // Not `min` and `max`, which take more instructions because of NaN.
@@ -256,7 +190,7 @@ const FEW: usize = 32;
 
 /// Some pieces, divided by size and sorted along an axis if there are many: those that touch a piece are found without
 /// a comparison of all.
-struct SortedPieces {
+pub(crate) struct SortedPieces {
     pieces: SmallVec<[u32; FEW]>,
     around: Bounds,
     axis: usize,
@@ -272,7 +206,7 @@ struct Class {
 }
 
 impl SortedPieces {
-    fn of(all: &[Piece], pieces: &[u32]) -> Self {
+    pub(crate) fn of(all: &[Piece], pieces: &[u32]) -> Self {
         let mut around = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
         pieces.iter().for_each(|&piece| around.include(&all[piece as usize]));
         let size = |axis: &usize| around.max[*axis] - around.min[*axis];
@@ -299,7 +233,12 @@ impl SortedPieces {
     }
 
     /// The pieces whose boxes may come within a distance of a piece.
-    fn touching(&self, all: &[Piece], other: &Piece, distance: f64) -> impl Iterator<Item = &u32> {
+    pub(crate) fn touching(
+        &self,
+        all: &[Piece],
+        other: &Piece,
+        distance: f64,
+    ) -> impl Iterator<Item = &u32> {
         let axis = self.axis;
         let (low, high) = (other.min[axis] - distance, other.max[axis] + distance);
         let start = move |piece: u32| all[piece as usize].min[axis];

@@ -31,7 +31,7 @@ use given::SortedCorners;
 use own::Scored;
 
 pub(super) use coplanar::settle;
-pub(crate) use coplanar::{NearPiece, NearSet, follow_larger};
+pub(crate) use coplanar::{SortedPieces, is_along};
 pub(super) use given::GivenChooser;
 pub use given::{PieceSet, SplitPlane};
 pub(super) use peel::Peeled;
