@@ -5,12 +5,12 @@
 //! tolerance. The large polygon is then on one side of the plane, or the plane cuts it, and the shape has to go with it.
 //!
 //! A shape follows the largest polygon of the overlay on which it lies. Beyond that polygon, or without one, it follows
-//! its [hosts](Hosts). If these are on several sides of the plane, the shape is cut at their [borders](Borders).
+//! its [hosts](Beside::hosts). If these are on several sides of the plane, the shape is cut at their [borders](Borders).
 
 use smallvec::SmallVec;
 
 use super::borders::Borders;
-use super::hosts::{At, Host, Hosts, Origin};
+use super::hosts::{Host, Origin, Sought};
 use super::region::Ground;
 use crate::build::choose::{SortedPieces, is_along};
 use crate::build::piece::{Piece, Splitter};
@@ -23,7 +23,6 @@ use crate::tree::node::Ranges;
 /// The pieces of a set near a plane, with lists that are reused.
 #[derive(Default)]
 pub(super) struct Following {
-    hosts: Hosts,
     borders: Borders,
     near: Vec<NearPiece>,
     /// The hosts of one near piece after the other.
@@ -40,6 +39,8 @@ struct NearPiece {
     place: u32,
     /// The start and the end of its hosts in the list of all.
     hosts: [u32; 2],
+    /// Whether the first of them decides the side of all parts.
+    is_one_side: bool,
     /// The start and the end of its parts.
     parts: [u32; 2],
 }
@@ -54,17 +55,14 @@ struct Placed {
 /// A set of pieces beside a plane of one of the trees that shapes descend.
 pub(super) struct Beside<'a> {
     pub(super) ground: Ground<'a>,
-    /// The first face of the overlay.
-    pub(super) first: u32,
     pub(super) plane: &'a PreparedPlane,
     pub(super) node: &'a Ranges,
     pub(super) watch: &'a Watch<'a>,
 }
 
 impl Following {
-    /// Forgets all shapes, and prepares for a number of others.
-    pub(super) fn reset(&mut self, shapes: usize) {
-        self.hosts.reset(shapes);
+    /// Forgets all shapes.
+    pub(super) fn reset(&mut self) {
         self.borders.clear();
     }
 
@@ -83,16 +81,17 @@ impl Following {
         (place, piece, arena): (u32, &Piece, &[Vertex]),
         side: Side,
     ) -> Result<Option<Side>, Error> {
-        let &Beside { ground, first, plane, node, watch } = beside;
+        let plane = beside.plane;
         let is_within = plane.stays_near(faces, piece.face, piece.cut_vertices(arena));
         if !is_within && !is_along(faces, piece.face, plane.normal()) {
             return Ok(None);
         }
-        let at = At { ground, faces, first, plane, node, watch };
         let start = self.found.len();
-        self.hosts.at(&at, (piece, arena), (side, is_within), &mut self.found)?;
+        let outline = &piece.outline(faces, arena);
+        let sought = Sought { piece, outline, side, is_within };
+        let is_one_side = beside.hosts(faces, &sought, &mut self.found)?;
         let hosts = [start, self.found.len()].map(|place| place as u32);
-        push(&mut self.near, NearPiece { place, hosts, parts: [0; 2] })?;
+        push(&mut self.near, NearPiece { place, hosts, is_one_side, parts: [0; 2] })?;
         let of_hosts = decided(faces, plane, piece, arena, &self.found[start..]);
         self.is_open |= of_hosts.is_none();
         Ok(of_hosts.flatten())
@@ -149,16 +148,19 @@ impl Following {
                 for part in &placed[first..end] {
                     let Placed { piece: on, side, .. } = *part;
                     if faces.overlap(face, [&on.outline(faces, arena), &outline]) {
-                        above.push(Host { origin: Origin::Piece(on), side, is_cut: false });
+                        let lines = on.cut_vertices(arena).unwrap_or_default().iter();
+                        let is_cut =
+                            lines.map(Vertex::line).any(|l| l.as_cut() == Some(beside.plane.id()));
+                        above.push(Host { origin: Origin::Piece(on), side, is_cut });
                         largest = Some(face);
                     }
                 }
             }
-            let [first, end] = near[number].hosts;
+            let NearPiece { hosts: [first, end], is_one_side, .. } = near[number];
             let hosts = &found[first as usize..end as usize];
             let begin = placed.len() as u32;
             let mut parting = Parting { faces, beside, borders, arena, splitter, placed };
-            parting.part(*piece, &above, hosts)?;
+            parting.part(*piece, &above, hosts, is_one_side)?;
             near[number].parts = [begin, placed.len() as u32];
         }
         if placed.len() > near.len() {
@@ -202,13 +204,23 @@ struct Parting<'a, 'b> {
 impl Parting<'_, '_> {
     /// Cuts a piece into parts that each lie on polygons on one side only: on those of the overlay, otherwise on those of
     /// the tree, otherwise on none.
-    fn part(&mut self, piece: Piece, above: &[Host], hosts: &[Host]) -> Result<(), Error> {
+    fn part(
+        &mut self,
+        piece: Piece,
+        above: &[Host],
+        hosts: &[Host],
+        is_one_side: bool,
+    ) -> Result<(), Error> {
         let &Beside { ground, plane, watch, .. } = self.beside;
         let mut stack: SmallVec<[(Piece, Vec<Host>, bool); 4]> = SmallVec::new();
         let (list, is_above) = if above.is_empty() { (hosts, false) } else { (above, true) };
         stack.push((piece, list.to_vec(), is_above));
         while let Some((mut piece, mut under, is_above)) = stack.pop() {
             watch.work(under.len())?;
+            if !is_above && is_one_side {
+                self.push(piece, hosts.first().map(|host| host.side))?;
+                continue;
+            }
             let outline = piece.outline(self.faces, self.arena);
             under.retain(|host| self.overlap(host, &outline));
             if under.is_empty() && is_above {

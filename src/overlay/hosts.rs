@@ -1,120 +1,17 @@
 //! The polygons of a tree on which an overlay's shapes lie.
 
-use std::ops::Range;
-
 use glam::DVec3;
 use smallvec::SmallVec;
 
+use super::following::Beside;
 use super::region::Ground;
 use crate::build::piece::Piece;
 use crate::error::Error;
-use crate::exact::{EdgeLine, Faces, Outline, PlaneId, PreparedPlane, Side, Vertex};
-use crate::memory::{place, push};
-use crate::progress::Watch;
+use crate::exact::{EdgeLine, Faces, Outline, PlaneId, Side, Vertex};
+use crate::memory::push;
 use crate::tree::bounds::outwards;
 use crate::tree::node::Ranges;
 use crate::tree::{Flat, Fragment};
-
-/// The *hosts* of each shape: the fragments of a tree that are coplanar with the shape and overlap it. They are found
-/// when a shape is first asked for.
-#[derive(Default)]
-pub(super) struct Hosts {
-    /// The fragments of one shape after the other, and of each shape those of the largest polygon first: one number for
-    /// each pair of a shape and a fragment on which it lies.
-    fragments: Vec<u32>,
-    of_shapes: Vec<Option<Known>>,
-}
-
-/// The hosts of a shape in the part of a tree that was searched last.
-#[derive(Clone)]
-struct Known {
-    /// The number of the [`Ground`].
-    ground: u32,
-    part: Range<u32>,
-    /// The place of the hosts in the list of all.
-    hosts: Range<u32>,
-}
-
-/// A node of a tree that shapes descend: the fragments on its plane and on its sides.
-pub(super) struct At<'a> {
-    pub(super) ground: Ground<'a>,
-    /// The faces of the overlay.
-    pub(super) faces: &'a Faces,
-    /// The first of these that is the overlay's own.
-    pub(super) first: u32,
-    pub(super) plane: &'a PreparedPlane,
-    pub(super) node: &'a Ranges,
-    pub(super) watch: &'a Watch<'a>,
-}
-
-impl Hosts {
-    /// Forgets all shapes, and prepares for a number of others.
-    pub(super) fn reset(&mut self, shapes: usize) {
-        self.fragments.clear();
-        self.of_shapes.clear();
-        self.of_shapes.resize(shapes, None);
-    }
-
-    /// Appends the hosts of a piece at a node of the tree, those of the largest polygon first. `side` is the piece's own
-    /// side of the node's plane. Of a piece that leaves the plane, only hosts that come near it count.
-    pub(super) fn at(
-        &mut self,
-        at: &At<'_>,
-        (piece, arena): (&Piece, &[Vertex]),
-        (side, is_within): (Side, bool),
-        found: &mut Vec<Host>,
-    ) -> Result<(), Error> {
-        let &At { ground, faces, plane, watch, .. } = at;
-        let Ranges { own, front, back } = at.node;
-        let all = own.start..front.end.max(back.end);
-        let Self { fragments, of_shapes } = self;
-        let known = &mut of_shapes[(piece.face - at.first) as usize];
-        let is_part = |known: &Known| {
-            known.ground == ground.number()
-                && known.part.start <= all.start
-                && all.end <= known.part.end
-        };
-        let mut outline = Outline::new();
-        let hosts = match known {
-            Some(known) if is_part(known) => known.hosts.clone(),
-            _ => {
-                outline = piece.outline(faces, arena);
-                if side == Side::Coplanar
-                    && let Some(fragment) = at.around(&outline)
-                {
-                    let origin = Origin::Fragment(fragment);
-                    return push(found, Host { origin, side, is_cut: false });
-                }
-                let start = fragments.len();
-                at.find(all.clone(), piece.face, &outline, fragments)?;
-                let hosts = place(start)?..place(fragments.len())?;
-                *known = Some(Known { ground: ground.number(), part: all, hosts: hosts.clone() });
-                hosts
-            }
-        };
-        let hosts = &fragments[hosts.start as usize..hosts.end as usize];
-        if outline.is_empty() && !hosts.is_empty() {
-            outline = piece.outline(faces, arena);
-        }
-        let parts = [(own, Side::Coplanar), (front, Side::Front), (back, Side::Back)];
-        for &fragment in hosts {
-            let part = parts.iter().find(|(part, _)| part.contains(&fragment));
-            let (Some(&(_, side)), origin) = (part, Origin::Fragment(fragment)) else { continue };
-            watch.work(1)?;
-            let host = ground.fragment(faces, fragment);
-            let is_cut = host.lines().any(|line| line.as_cut() == Some(plane.id()));
-            let vertices = vertices(host);
-            // The plane cuts a piece that leaves the plane as it has cut the host.
-            let counts =
-                is_within || !is_cut && (side == Side::Coplanar || plane.comes_near(&vertices));
-            // The shape may have been cut since its hosts were found.
-            if counts && faces.overlap(host.face(), [&outline, &vertices]) {
-                push(found, Host { origin, side, is_cut })?;
-            }
-        }
-        Ok(())
-    }
-}
 
 /// A polygon on which a piece lies, and its side of a plane.
 #[derive(Clone, Debug)]
@@ -166,32 +63,88 @@ impl Host {
     }
 }
 
-/// The most fragments on a plane that are compared with a shape before its hosts are sought. Too small: hosts are sought
+/// The most fragments on a plane that are compared with a piece before its hosts are sought. Too small: hosts are sought
 /// without need. Too large: time.
 const FEW: usize = 8;
 
-impl At<'_> {
+/// A piece whose hosts are sought.
+pub(super) struct Sought<'a> {
+    pub(super) piece: &'a Piece,
+    pub(super) outline: &'a Outline,
+    /// The piece's own side of the plane.
+    pub(super) side: Side,
+    /// Whether the piece stays within twice the tolerance of the plane.
+    pub(super) is_within: bool,
+}
+
+impl Beside<'_> {
+    /// Appends the *hosts* of a piece: the fragments at a node that are coplanar with the piece and overlap it, those of
+    /// the largest polygon first. Of a piece that leaves the plane, only hosts that come near it count. If all hosts are
+    /// on the side where the piece may go as a whole, appends one of them and returns true.
+    pub(super) fn hosts(
+        &self,
+        faces: &Faces,
+        sought: &Sought<'_>,
+        found: &mut Vec<Host>,
+    ) -> Result<bool, Error> {
+        let &Sought { outline, side, is_within, .. } = sought;
+        if side == Side::Coplanar
+            && let Some(fragment) = self.around(faces, outline)
+        {
+            push(found, Host { origin: Origin::Fragment(fragment), side, is_cut: false })?;
+            return Ok(true);
+        }
+        let near = self.boxes_near(faces, outline)?;
+        let start = found.len();
+        // The first host on each side: most often there is no other side, and one host is enough.
+        let mut is_open = false;
+        let Ranges { own, front, back } = self.node;
+        let parts = [(own, Side::Coplanar), (front, Side::Front), (back, Side::Back)];
+        for (part, side) in parts {
+            let first = near.partition_point(|&fragment| fragment < part.start);
+            for &fragment in near[first..].iter().take_while(|fragment| part.contains(fragment)) {
+                if let Some(host) = self.host(faces, sought, fragment, side)? {
+                    is_open |= found.len() > start || !is_within && side != sought.side;
+                    push(found, host)?;
+                    break;
+                }
+            }
+        }
+        if !is_open {
+            return Ok(found.len() > start);
+        }
+        found.truncate(start);
+        for &fragment in &near {
+            let part = parts.iter().find(|(part, _)| part.contains(&fragment));
+            let Some(&(_, side)) = part else { continue };
+            if let Some(host) = self.host(faces, sought, fragment, side)? {
+                push(found, host)?;
+            }
+        }
+        let face = |host: &Host| match host.origin {
+            Origin::Fragment(fragment) => (self.ground.face(fragment), fragment),
+            Origin::Piece(piece) => (piece.face, 0),
+        };
+        found[start..].sort_by(|a, b| {
+            let [a, b] = [a, b].map(face);
+            faces.largest_first(a.0, b.0).then(a.1.cmp(&b.1))
+        });
+        Ok(false)
+    }
+
     /// A fragment with the node's plane within which a piece lies. It is a host, and most often the only one: if a
     /// larger polygon that is coplanar with it and overlaps it left the plane, the tree would usually have that
     /// polygon's plane instead.
-    fn around(&self, outline: &Outline) -> Option<u32> {
+    fn around(&self, faces: &Faces, outline: &Outline) -> Option<u32> {
         self.node.own.clone().take(FEW).find(|&number| {
-            let fragment = self.ground.fragment(self.faces, number);
+            let fragment = self.ground.fragment(faces, number);
             PlaneId::face(fragment.face()) == self.plane.id()
-                && self.faces.is_inside(fragment.face(), [outline, &vertices(fragment)])
+                && faces.is_inside(fragment.face(), [outline, &vertices(fragment)])
         })
     }
 
-    /// Appends the fragments of a part of the tree that are coplanar with a shape and overlap a piece of it, those of
-    /// the largest polygon first.
-    fn find(
-        &self,
-        mut part: Range<u32>,
-        shape: u32,
-        outline: &Outline,
-        found: &mut Vec<u32>,
-    ) -> Result<(), Error> {
-        let &Self { ground, faces, watch, .. } = self;
+    /// The fragments at the node whose boxes come within twice the tolerance of a piece's box, in ascending order.
+    fn boxes_near(&self, faces: &Faces, outline: &Outline) -> Result<SmallVec<[u32; 16]>, Error> {
         let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let union = |[low, high]: [DVec3; 2], &corner: &[f64; 3]| {
             [low.min(corner.into()), high.max(corner.into())]
@@ -202,23 +155,37 @@ impl At<'_> {
         let is_apart = |bounds: &Flat| {
             (0..3).any(|axis| bounds[axis] > around[axis + 3] || around[axis] > bounds[axis + 3])
         };
-        let boxes = ground.boxes(faces);
+        let boxes = self.ground.boxes(faces);
         let next = |part: &mut _| boxes.next_block(part, |block| is_apart(block).then_some(false));
-        let start = found.len();
+        let (mut part, mut near) = (self.node.all(), SmallVec::new());
         while let Some((block, _)) = next(&mut part) {
-            watch.work(1)?;
             // A block that is not inside is a single fragment.
-            let fragment = ground.fragment(faces, block.start);
-            if faces.are_coplanar(fragment.face(), shape)
-                && faces.overlap(fragment.face(), [outline, &vertices(fragment)])
-            {
-                push(found, block.start)?;
-            }
+            near.push(block.start);
         }
-        found[start..].sort_unstable_by(|&a, &b| {
-            faces.largest_first(ground.face(a), ground.face(b)).then(a.cmp(&b))
-        });
-        Ok(())
+        self.watch.work(near.len())?;
+        Ok(near)
+    }
+
+    /// A fragment as a host of a piece, if it is one.
+    fn host(
+        &self,
+        faces: &Faces,
+        sought: &Sought<'_>,
+        fragment: u32,
+        side: Side,
+    ) -> Result<Option<Host>, Error> {
+        self.watch.work(1)?;
+        let host = self.ground.fragment(faces, fragment);
+        if !faces.are_coplanar(host.face(), sought.piece.face) {
+            return Ok(None);
+        }
+        let is_cut = host.lines().any(|line| line.as_cut() == Some(self.plane.id()));
+        let vertices = vertices(host);
+        // The plane cuts a piece that leaves the plane as it has cut the host.
+        let counts = sought.is_within
+            || !is_cut && (side == Side::Coplanar || self.plane.comes_near(&vertices));
+        let is_host = counts && faces.overlap(host.face(), [sought.outline, &vertices]);
+        Ok(is_host.then_some(Host { origin: Origin::Fragment(fragment), side, is_cut }))
     }
 }
 

@@ -95,7 +95,7 @@ impl Work<'_> {
         let (tree, faces, thin, watch) = (self.tree, &*self.faces, self.thin, self.watch);
         let Placer { pieces, arena, pending, anchors, following, crowd, .. } = &mut *self.placer;
         anchors.fill(faces, watch)?;
-        following.reset(faces.len() - tree.faces.len());
+        following.reset();
         pieces.clear();
         arena.clear();
         pending.clear();
@@ -200,8 +200,8 @@ impl Work<'_> {
             Whose::Tree => Ground::Tree(tree),
             Whose::Cell => Ground::Cell(cell),
         };
-        let (node, first) = (&opened.ranges(), tree.faces.len() as u32);
-        let beside = Beside { ground, first, plane: prepared, node, watch };
+        let node = &opened.ranges();
+        let beside = Beside { ground, plane: prepared, node, watch };
         let may_follow = faces.tolerance() > 0.0
             && !(node.own.is_empty() && node.front.is_empty() && node.back.is_empty());
         following.begin();

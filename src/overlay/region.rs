@@ -49,8 +49,6 @@ impl Region {
 /// The small tree of the polygons in a cell, while it cuts lines and points.
 #[derive(Debug, Default)]
 pub(super) struct CellTree {
-    /// The number of trees so far, including this one.
-    number: u32,
     nodes: Vec<NodeRecord>,
     sizes: Vec<Sizes>,
     pub(super) parts: Parts,
@@ -64,7 +62,6 @@ impl CellTree {
         make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
         finish(parts.nodes.iter().copied(), &mut self.sizes, &mut self.nodes);
         (self.parts, self.bounds) = (parts, OnceLock::new());
-        self.number += 1;
         Ok(Region::root(Whose::Cell, self.nodes.len(), self.parts.records.len()))
     }
 }
@@ -77,14 +74,6 @@ pub(super) enum Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    /// A number that no other tree of the same placing has.
-    pub(super) fn number(self) -> u32 {
-        match self {
-            Self::Tree(_) => 0,
-            Self::Cell(cell) => cell.number,
-        }
-    }
-
     fn stored(self) -> Stored<'a> {
         match self {
             Self::Tree(tree) => tree.stored(),

@@ -325,6 +325,13 @@ pub(crate) struct Ranges {
     pub(crate) back: Range<u32>,
 }
 
+impl Ranges {
+    /// All fragments. Those on the plane come first.
+    pub(crate) fn all(&self) -> Range<u32> {
+        self.own.start..self.back.end.max(self.front.end)
+    }
+}
+
 /// The numbers of fragments and nodes of a subtree.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sizes {

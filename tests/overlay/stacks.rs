@@ -1,5 +1,6 @@
-//! Shapes of an overlay on one another, on flat walls whose polygons have planes that differ by rounding: a label, text
-//! on the label, a line and a point on the text. Each comes after those on which it lies, from both sides.
+//! Shapes of an overlay on one another, on flat walls of many small polygons whose planes differ by rounding: a label
+//! over several of these, text on the label, a line and a point on the text. Each comes after those on which it lies,
+//! from both sides.
 
 use binspace::glam::{DQuat, DVec2, EulerRot, dvec2};
 use binspace::overlay::{Overlay, Shape, Shapes};
@@ -171,17 +172,20 @@ fn judge(seed: u64, numbers: Numbers, judged: &mut Judged) {
     judged.cut += usize::from(was_cut);
 }
 
-/// With coarse decimals, planes of the wall cut one label in six. Beside such a cut, the parts of two shapes within
-/// twice the tolerance of the plane may come in either order.
+/// In decimals, a few pairs are within the exceptions of the guide: beside a cut at a small angle.
 #[test]
 fn shapes_of_a_stack_come_one_after_the_other() {
-    let all = [Numbers::Single, Numbers::Double, Numbers::Decimal(4), Numbers::Decimal(6)];
-    for numbers in all {
+    for numbers in [Numbers::Single, Numbers::Double, Numbers::Decimal(4), Numbers::Decimal(6)] {
         let mut judged = Judged::default();
         for seed in seeds(150) {
             judge(seed, numbers, &mut judged);
         }
-        println!("{numbers:?} {judged:?}");
+        let Judged { pairs, cut, wrong, .. } = judged;
+        let is_coarse = matches!(numbers, Numbers::Decimal(_));
+        let allowed = if is_coarse { [pairs[0] / 500, pairs[1] / 100] } else { [0; 2] };
+        assert!(wrong[0] <= allowed[0] && wrong[1] <= allowed[1], "{numbers:?}: {judged:?}");
+        let most = if is_coarse { 40 } else { 2 };
+        enough!(pairs[0].min(pairs[1]) > 2000, cut > most; "{numbers:?}: {judged:?}");
     }
 }
 
