@@ -188,6 +188,23 @@ impl PreparedPlane {
         (self.side_of_extent(faces, face, cut, [low, high]), reaches)
     }
 
+    /// Whether a piece may count as on a side of the plane: no point of it is further than twice the tolerance from
+    /// that side.
+    pub(crate) fn allows(
+        &self,
+        faces: &Faces,
+        face: u32,
+        cut: Option<&[Vertex]>,
+        side: Side,
+    ) -> bool {
+        let (low, high) = match cut {
+            Some(vertices) => self.extent(vertices.iter().map(|vertex| vertex.position)),
+            None => self.extent(faces.corners(face).iter().copied()),
+        };
+        (side == Side::Back || low >= -self.twice())
+            && (side == Side::Front || high <= self.twice())
+    }
+
     /// Whether a piece reaches beyond one side of the plane by more than the tolerance, given the other side.
     pub(crate) fn leaves(
         &self,

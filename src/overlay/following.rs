@@ -16,7 +16,7 @@ use crate::build::choose::{SortedPieces, is_along};
 use crate::build::piece::{Piece, Splitter};
 use crate::error::Error;
 use crate::exact::{Faces, Outline, PreparedPlane, Side, Vertex};
-use crate::memory::push;
+use crate::memory::{place as as_u32, push};
 use crate::progress::Watch;
 use crate::tree::node::Ranges;
 
@@ -90,7 +90,7 @@ impl Following {
         let outline = &piece.outline(faces, arena);
         let sought = Sought { piece, outline, side, is_within };
         let is_one_side = beside.hosts(faces, &sought, &mut self.found)?;
-        let hosts = [start, self.found.len()].map(|place| place as u32);
+        let hosts = [as_u32(start)?, as_u32(self.found.len())?];
         push(&mut self.near, NearPiece { place, hosts, is_one_side, parts: [0; 2] })?;
         let of_hosts = decided(faces, plane, piece, arena, &self.found[start..]);
         self.is_open |= of_hosts.is_none();
@@ -158,10 +158,10 @@ impl Following {
             }
             let NearPiece { hosts: [first, end], is_one_side, .. } = near[number];
             let hosts = &found[first as usize..end as usize];
-            let begin = placed.len() as u32;
+            let begin = as_u32(placed.len())?;
             let mut parting = Parting { faces, beside, borders, arena, splitter, placed };
             parting.part(*piece, &above, hosts, is_one_side)?;
-            near[number].parts = [begin, placed.len() as u32];
+            near[number].parts = [begin, as_u32(placed.len())?];
         }
         if placed.len() > near.len() {
             near.sort_unstable_by_key(|near| near.place);
@@ -173,7 +173,7 @@ impl Following {
 }
 
 /// The side of a piece that its hosts decide; `None` inside if it has no host. `None` if its hosts are on different
-/// sides, or if the piece leaves the plane on another side than they.
+/// sides, or if the piece leaves the plane on another side.
 fn decided(
     faces: &Faces,
     plane: &PreparedPlane,
@@ -183,12 +183,8 @@ fn decided(
 ) -> Option<Option<Side>> {
     let Some(first) = hosts.first() else { return Some(None) };
     let is_one = hosts.iter().all(|host| host.side == first.side);
-    let cut = piece.cut_vertices(arena);
-    let is_settled = || {
-        plane.stays_near(faces, piece.face, cut)
-            || plane.classify(faces, piece.face, cut) == first.side
-    };
-    (is_one && is_settled()).then_some(Some(first.side))
+    let may_go = || plane.allows(faces, piece.face, piece.cut_vertices(arena), first.side);
+    (is_one && may_go()).then_some(Some(first.side))
 }
 
 /// The cutting of one piece of a set.
@@ -251,11 +247,15 @@ impl Parting<'_, '_> {
                 }
             }
             let host = under.remove(0);
+            let mut is_beyond = false;
             for (border, inside) in self.borders.of(self.faces, ground, self.arena, &host)? {
                 let cut = piece.cut_vertices(self.arena);
-                if !border.leaves(self.faces, piece.face, cut, inside)
-                    || piece.exact_side(self.faces, &border, self.arena) != Side::Spanning
-                {
+                if !border.leaves(self.faces, piece.face, cut, inside) {
+                    continue;
+                }
+                let side = piece.exact_side(self.faces, &border, self.arena);
+                is_beyond |= side != Side::Spanning && side != inside;
+                if side != Side::Spanning {
                     continue;
                 }
                 let [front, back] = self.splitter.cut(self.faces, &border, &piece, self.arena)?;
@@ -264,7 +264,14 @@ impl Parting<'_, '_> {
                 piece = within;
                 stack.push((beyond, under.clone(), is_above));
             }
-            self.push(piece, Some(host.side))?;
+            // The host is beside what is left of the piece.
+            if is_beyond {
+                stack.push((piece, under, is_above));
+                continue;
+            }
+            let cut = piece.cut_vertices(self.arena);
+            let may_go = plane.allows(self.faces, piece.face, cut, host.side);
+            self.push(piece, may_go.then_some(host.side))?;
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Overlays: one order of a tree and moving polygons, compared with an exact depth buffer that uses
 //! neither, and with exact areas.
 
+mod borders;
 mod cleared;
 mod coplanar;
 mod cost;
