@@ -9,8 +9,9 @@ use smallvec::SmallVec;
 use super::crossings::{FaceEdge, InnerEdges};
 use super::lines::{Table, ViewFrame};
 use super::map::{Hidden, VisibilityMap, finish_item, sort_by, sort_unique};
+use super::passes::{Depths, Passing, in_layers, parts};
 use super::quadtree::{CUT, VISITED, Visible};
-use super::segments::{Depths, Passing, ProjectedSegment, in_layers, parts};
+use super::segments::ProjectedSegment;
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
 use crate::progress::Watch;
@@ -88,7 +89,7 @@ impl VisibilityMap<'_> {
         let mut layered = Vec::new();
         for (run, number) in list {
             let known = hidden.binary_search(&number).ok();
-            let known = known.map(|place| (&segments[place], depths.of(place)));
+            let known = known.map(|place| (&segments[place].course, depths.of(place)));
             let parts = in_layers(run.ends, run.is_visible, known, watch)?.into_iter();
             layered.extend(parts.map(|(ends, layers)| EdgeRun {
                 ends,

@@ -49,6 +49,7 @@ mod lines;
 mod map;
 mod overlaid;
 mod pairs;
+mod passes;
 mod paths;
 #[cfg(feature = "pdf")]
 mod pdf;

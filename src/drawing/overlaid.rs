@@ -7,12 +7,10 @@ use super::graph::Pair;
 use super::lines::LineTable;
 use super::map::{Hidden, VisibilityMap, each, sort_by};
 use super::pairs::Found;
+use super::passes::{Depths, Pass, Passes, Passing, in_layers, parts, passes, take_own};
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Candidates, VISITED};
-use super::segments::{
-    Depths, Pass, Passes, Passing, ProjectedPoint, ProjectedSegment, in_layers, parts, passes,
-    take_own,
-};
+use super::segments::{ProjectedPoint, ProjectedSegment};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::overlay::place::GivenSegment;
@@ -113,7 +111,7 @@ impl VisibilityMap<'_> {
                     let run = LineRun::new(segment, ends, !is_hidden);
                     match &depths {
                         Some(depths) => {
-                            let known = Some((projected, depths.of(number)));
+                            let known = Some((&projected.course, depths.of(number)));
                             let layered = in_layers(ends, !is_hidden, known, watch)?.into_iter();
                             runs.extend(layered.map(|(ends, layers)| LineRun {
                                 ends,

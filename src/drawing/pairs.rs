@@ -10,11 +10,11 @@ use super::cell::{NOWHERE, Rect, are_apart};
 use super::graph::{Pair, Wanted};
 use super::lines::{HalfPlane, Mixer};
 use super::map::{each, sort_unique};
+use super::passes::Passing;
 use super::primitives::{FEW_CORNERS, Primitives};
 use super::quadtree::{
     CUT, Candidate, Candidates, Leaf, SubTile, TINIEST, Tile, TileList, VISITED, Visible, found_in,
 };
-use super::segments::Passing;
 use crate::Error;
 use crate::progress::Watch;
 

@@ -177,19 +177,13 @@ impl PreparedPlane {
         if self.plane == PlaneId::face(face) {
             return (Side::Coplanar, true);
         }
-        let (low, high) = match (cut, faces.corners(face)) {
-            (Some(vertices), _) => self.extent(vertices.iter().map(|vertex| vertex.position)),
-            // Without a loop, because most faces have three or four corners.
-            (None, &[a, b, c]) => self.extent([a, b, c].into_iter()),
-            (None, &[a, b, c, d]) => self.extent([a, b, c, d].into_iter()),
-            (None, corners) => self.extent(corners.iter().copied()),
-        };
+        let (low, high) = self.extent_of(faces, face, cut);
         let reaches = low <= self.twice() && high >= -self.twice();
         (self.side_of_extent(faces, face, cut, [low, high]), reaches)
     }
 
-    /// Whether a piece may count as on a side of the plane: no point of it is further than twice the tolerance from
-    /// that side.
+    /// Whether a piece may count as on a side of the plane, or as on the plane: no point of it is further from there than
+    /// twice the tolerance.
     pub(crate) fn allows(
         &self,
         faces: &Faces,
@@ -197,10 +191,7 @@ impl PreparedPlane {
         cut: Option<&[Vertex]>,
         side: Side,
     ) -> bool {
-        let (low, high) = match cut {
-            Some(vertices) => self.extent(vertices.iter().map(|vertex| vertex.position)),
-            None => self.extent(faces.corners(face).iter().copied()),
-        };
+        let (low, high) = self.extent_of(faces, face, cut);
         (side == Side::Back || low >= -self.twice())
             && (side == Side::Front || high <= self.twice())
     }
@@ -213,10 +204,7 @@ impl PreparedPlane {
         cut: Option<&[Vertex]>,
         inside: Side,
     ) -> bool {
-        let (low, high) = match cut {
-            Some(vertices) => self.extent(vertices.iter().map(|vertex| vertex.position)),
-            None => self.extent(faces.corners(face).iter().copied()),
-        };
+        let (low, high) = self.extent_of(faces, face, cut);
         (if inside == Side::Front { -low } else { high }) > self.band + self.bound
     }
 
@@ -224,15 +212,6 @@ impl PreparedPlane {
     pub(crate) fn comes_near(&self, vertices: &[[f64; 3]]) -> bool {
         let (low, high) = self.extent(vertices.iter().copied());
         low <= self.twice() && high >= -self.twice()
-    }
-
-    /// Whether a whole piece may be within twice the tolerance of the plane.
-    pub(crate) fn stays_near(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> bool {
-        let (low, high) = match cut {
-            Some(vertices) => self.extent(vertices.iter().map(|vertex| vertex.position)),
-            None => self.extent(faces.corners(face).iter().copied()),
-        };
-        high.max(-low) <= self.twice()
     }
 
     /// A bound on the rounded distance of points within twice the tolerance.
@@ -265,6 +244,18 @@ impl PreparedPlane {
             Side::Coplanar
         } else {
             self.classify_exactly(faces, face, cut)
+        }
+    }
+
+    /// The least and the greatest distance of the vertices of a piece, rounded.
+    #[inline]
+    fn extent_of(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> (f64, f64) {
+        match (cut, faces.corners(face)) {
+            (Some(vertices), _) => self.extent(vertices.iter().map(|vertex| vertex.position)),
+            // Without a loop, because most faces have three or four corners.
+            (None, &[a, b, c]) => self.extent([a, b, c].into_iter()),
+            (None, &[a, b, c, d]) => self.extent([a, b, c, d].into_iter()),
+            (None, corners) => self.extent(corners.iter().copied()),
         }
     }
 

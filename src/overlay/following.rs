@@ -6,16 +6,17 @@
 //!
 //! A shape follows the largest polygon of the overlay on which it lies. Beyond that polygon, or without one, it follows
 //! its [hosts](Beside::hosts). If these are on several sides of the plane, the shape is cut at their [borders](Borders).
+//! So each part of a shape goes with the polygon on which it lies, though the polygons' planes differ by rounding.
 
+use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::borders::Borders;
-use super::hosts::{Host, Origin, Sought};
+use super::hosts::{Borders, Host, Sought};
 use super::region::Ground;
 use crate::build::choose::{SortedPieces, is_along};
 use crate::build::piece::{Piece, Splitter};
 use crate::error::Error;
-use crate::exact::{Faces, Outline, PreparedPlane, Side, Vertex};
+use crate::exact::{Faces, PreparedPlane, Side, Vertex};
 use crate::memory::{place as as_u32, push};
 use crate::progress::Watch;
 use crate::tree::node::Ranges;
@@ -81,20 +82,19 @@ impl Following {
         (place, piece, arena): (u32, &Piece, &[Vertex]),
         side: Side,
     ) -> Result<Option<Side>, Error> {
-        let plane = beside.plane;
-        let is_within = plane.stays_near(faces, piece.face, piece.cut_vertices(arena));
-        if !is_within && !is_along(faces, piece.face, plane.normal()) {
+        let cut = piece.cut_vertices(arena);
+        let is_within = beside.plane.allows(faces, piece.face, cut, Side::Coplanar);
+        if !is_within && !is_along(faces, piece.face, beside.plane.normal()) {
             return Ok(None);
         }
         let start = self.found.len();
         let outline = &piece.outline(faces, arena);
-        let sought = Sought { piece, outline, side, is_within };
+        let sought = Sought { piece, arena, outline, side, is_within };
         let is_one_side = beside.hosts(faces, &sought, &mut self.found)?;
         let hosts = [as_u32(start)?, as_u32(self.found.len())?];
         push(&mut self.near, NearPiece { place, hosts, is_one_side, parts: [0; 2] })?;
-        let of_hosts = decided(faces, plane, piece, arena, &self.found[start..]);
-        self.is_open |= of_hosts.is_none();
-        Ok(of_hosts.flatten())
+        self.is_open |= !is_one_side && self.found.len() > start;
+        Ok(is_one_side.then(|| self.found[start].side))
     }
 
     /// Places the near pieces, if they are not all on one side. Puts further parts of a piece after it in the set, which
@@ -122,70 +122,62 @@ impl Following {
         let leaders = SortedPieces::of(&all, &numbers[..polygons]);
         placed.clear();
         for (number, piece) in all.iter().enumerate() {
-            let outline = piece.outline(faces, arena);
-            let mut above: SmallVec<[Host; 4]> = SmallVec::new();
-            let mut largest: Option<u32> = None;
+            let mut touching: SmallVec<[u32; 16]> = SmallVec::new();
             let mut compared = 0;
-            let mut touching: SmallVec<[u32; 16]> = leaders
-                .touching(&all, piece, tolerance)
-                .copied()
-                .inspect(|_| compared += 1)
-                .filter(|&other| {
-                    (other as usize) < number && all[other as usize].touches(piece, tolerance)
-                })
-                .collect();
-            beside.watch.work(compared)?;
-            touching.sort_unstable();
-            for other in touching {
-                let face = all[other as usize].face;
-                if largest.is_some_and(|largest| largest != face) {
-                    break;
-                }
-                if face == piece.face || !faces.are_coplanar(face, piece.face) {
-                    continue;
-                }
-                let [first, end] = near[other as usize].parts.map(|part| part as usize);
-                for part in &placed[first..end] {
-                    let Placed { piece: on, side, .. } = *part;
-                    if faces.overlap(face, [&on.outline(faces, arena), &outline]) {
-                        let lines = on.cut_vertices(arena).unwrap_or_default().iter();
-                        let is_cut =
-                            lines.map(Vertex::line).any(|l| l.as_cut() == Some(beside.plane.id()));
-                        above.push(Host { origin: Origin::Piece(on), side, is_cut });
-                        largest = Some(face);
-                    }
+            for &other in leaders.touching(&all, piece, tolerance) {
+                compared += 1;
+                if (other as usize) < number && all[other as usize].touches(piece, tolerance) {
+                    touching.push(other);
                 }
             }
+            beside.watch.work(compared)?;
+            touching.sort_unstable();
+            let touching = touching.iter().map(|&other| near[other as usize]);
+            let above = above(faces, beside, (piece, arena), touching, placed);
             let NearPiece { hosts: [first, end], is_one_side, .. } = near[number];
             let hosts = &found[first as usize..end as usize];
             let begin = as_u32(placed.len())?;
             let mut parting = Parting { faces, beside, borders, arena, splitter, placed };
-            parting.part(*piece, &above, hosts, is_one_side)?;
+            parting.part(*piece, [&above, hosts], is_one_side)?;
             near[number].parts = [begin, as_u32(placed.len())?];
         }
-        if placed.len() > near.len() {
-            near.sort_unstable_by_key(|near| near.place);
-        }
-        let further = merge(near, placed, start, pieces, sides);
-        debug_assert_eq!(further, placed.len() - near.len(), "each part once");
+        near.sort_unstable_by_key(|near| near.place);
+        merge(near, placed, start, pieces, sides);
         Ok(())
     }
 }
 
-/// The side of a piece that its hosts decide; `None` inside if it has no host. `None` if its hosts are on different
-/// sides, or if the piece leaves the plane on another side.
-fn decided(
+/// The parts of the largest polygon of the overlay on which a piece lies, of those in `touching`, the largest first.
+fn above(
     faces: &Faces,
-    plane: &PreparedPlane,
-    piece: &Piece,
-    arena: &[Vertex],
-    hosts: &[Host],
-) -> Option<Option<Side>> {
-    let Some(first) = hosts.first() else { return Some(None) };
-    let is_one = hosts.iter().all(|host| host.side == first.side);
-    let may_go = || plane.allows(faces, piece.face, piece.cut_vertices(arena), first.side);
-    (is_one && may_go()).then_some(Some(first.side))
+    beside: &Beside<'_>,
+    (piece, arena): (&Piece, &[Vertex]),
+    touching: impl Iterator<Item = NearPiece>,
+    placed: &[Placed],
+) -> Vec<Host> {
+    let (outline, mut found) = (piece.outline(faces, arena), Vec::<Host>::new());
+    for NearPiece { parts: [first, end], .. } in touching {
+        let parts = &placed[first as usize..end as usize];
+        let face = parts[0].piece.face;
+        if found.first().is_some_and(|found| found.face != face) {
+            break;
+        }
+        if face == piece.face || !faces.are_coplanar(face, piece.face) {
+            continue;
+        }
+        for part in parts {
+            let host = Host::piece(faces, &part.piece, arena, (beside.plane, part.side));
+            if faces.overlap(face, [&host.outline, &outline]) {
+                found.push(host);
+            }
+        }
+    }
+    found
 }
+
+/// The most hosts that are taken one by one, the largest first. Too small: hosts that overlap one another may decide in
+/// another order. Too large: time, because each is compared with what is left of the piece.
+const FEW: usize = 8;
 
 /// The cutting of one piece of a set.
 struct Parting<'a, 'b> {
@@ -199,90 +191,139 @@ struct Parting<'a, 'b> {
 
 impl Parting<'_, '_> {
     /// Cuts a piece into parts that each lie on polygons on one side only: on those of the overlay, otherwise on those of
-    /// the tree, otherwise on none.
-    fn part(
-        &mut self,
-        piece: Piece,
-        above: &[Host],
-        hosts: &[Host],
-        is_one_side: bool,
-    ) -> Result<(), Error> {
-        let &Beside { ground, plane, watch, .. } = self.beside;
-        let mut stack: SmallVec<[(Piece, Vec<Host>, bool); 4]> = SmallVec::new();
-        let (list, is_above) = if above.is_empty() { (hosts, false) } else { (above, true) };
-        stack.push((piece, list.to_vec(), is_above));
-        while let Some((mut piece, mut under, is_above)) = stack.pop() {
-            watch.work(under.len())?;
-            if !is_above && is_one_side {
-                self.push(piece, hosts.first().map(|host| host.side))?;
-                continue;
-            }
+    /// the tree, otherwise on none. Of the tree's, the first decides for all parts if `is_one_side`.
+    fn part(&mut self, piece: Piece, lists: [&[Host]; 2], is_one_side: bool) -> Result<(), Error> {
+        let plane = self.beside.plane;
+        // The parts to be placed, each with the list from which its hosts are, and the hosts' numbers.
+        let all = |list: usize| (0..lists[list].len() as u32).collect::<Vec<_>>();
+        let mut stack: SmallVec<[(Piece, usize, Vec<u32>); 4]> = SmallVec::new();
+        stack.push((piece, 0, all(0)));
+        while let Some((mut piece, list, mut under)) = stack.pop() {
+            let hosts = lists[list];
+            self.beside.watch.work(under.len())?;
             let outline = piece.outline(self.faces, self.arena);
-            under.retain(|host| self.overlap(host, &outline));
-            if under.is_empty() && is_above {
-                stack.push((piece, hosts.to_vec(), false));
+            under.retain(|&host| {
+                let Host { face, outline: other, .. } = &hosts[host as usize];
+                self.faces.overlap(*face, [other, &outline])
+            });
+            let Some(&first) = under.first() else {
+                match (list, lists[1].first()) {
+                    (0, Some(host)) if is_one_side => self.place(piece, Some(host.side))?,
+                    (0, Some(_)) => stack.push((piece, 1, all(1))),
+                    _ => self.place(piece, None)?,
+                }
                 continue;
-            }
-            if let Some(side) = decided(self.faces, plane, &piece, self.arena, &under) {
-                self.push(piece, side)?;
+            };
+            let first = &hosts[first as usize];
+            let is_one = under.iter().all(|&host| hosts[host as usize].side == first.side);
+            if is_one && self.may_go(&piece, first.side) {
+                self.place(piece, Some(first.side))?;
                 continue;
             }
             // Where the plane has cut a host, it cuts the piece too.
-            if under[0].is_cut {
+            if first.is_cut {
                 let on_side = |side: Side| {
-                    let same = under.iter().filter(|host| !host.is_cut || host.side == side);
-                    same.cloned().collect::<Vec<_>>()
+                    let is_other = |host: &Host| host.is_cut && host.side != side;
+                    let same = under.iter().filter(|&&host| !is_other(&hosts[host as usize]));
+                    same.copied().collect::<Vec<_>>()
                 };
                 let side = piece.exact_side(self.faces, plane, self.arena);
                 if side == Side::Spanning {
                     let [front, back] = self.splitter.cut(self.faces, plane, &piece, self.arena)?;
-                    stack.push((back, on_side(Side::Back), is_above));
-                    stack.push((front, on_side(Side::Front), is_above));
+                    stack.push((back, list, on_side(Side::Back)));
+                    stack.push((front, list, on_side(Side::Front)));
                     continue;
                 }
                 let left = on_side(side);
                 if left.len() < under.len() {
-                    stack.push((piece, left, is_above));
+                    stack.push((piece, list, left));
                     continue;
                 }
             }
-            let host = under.remove(0);
+            if under.len() > FEW
+                && let Some(parts) = self.halves(&piece, hosts, &under)?
+            {
+                stack.extend(parts.map(|part| (part, list, under.clone())));
+                continue;
+            }
+            under.remove(0);
             let mut is_beyond = false;
-            for (border, inside) in self.borders.of(self.faces, ground, self.arena, &host)? {
-                let cut = piece.cut_vertices(self.arena);
-                if !border.leaves(self.faces, piece.face, cut, inside) {
-                    continue;
+            for (border, inside) in self.borders.of(self.faces, first)? {
+                match self.cut(&piece, &border, inside)? {
+                    Cut::Within => {}
+                    Cut::Beyond => is_beyond = true,
+                    Cut::Parts([within, beyond]) => {
+                        piece = within;
+                        stack.push((beyond, list, under.clone()));
+                    }
                 }
-                let side = piece.exact_side(self.faces, &border, self.arena);
-                is_beyond |= side != Side::Spanning && side != inside;
-                if side != Side::Spanning {
-                    continue;
-                }
-                let [front, back] = self.splitter.cut(self.faces, &border, &piece, self.arena)?;
-                let is_front = inside == Side::Front;
-                let (within, beyond) = if is_front { (front, back) } else { (back, front) };
-                piece = within;
-                stack.push((beyond, under.clone(), is_above));
             }
             // The host is beside what is left of the piece.
             if is_beyond {
-                stack.push((piece, under, is_above));
+                stack.push((piece, list, under));
                 continue;
             }
-            let cut = piece.cut_vertices(self.arena);
-            let may_go = plane.allows(self.faces, piece.face, cut, host.side);
-            self.push(piece, may_go.then_some(host.side))?;
+            let may_go = self.may_go(&piece, first.side);
+            self.place(piece, may_go.then_some(first.side))?;
         }
         Ok(())
     }
 
-    fn overlap(&self, host: &Host, outline: &Outline) -> bool {
-        let host = host.outline(self.beside.ground, self.faces, self.arena);
-        self.faces.overlap(host.0, [&host.1, outline])
+    fn may_go(&self, piece: &Piece, side: Side) -> bool {
+        let cut = piece.cut_vertices(self.arena);
+        self.beside.plane.allows(self.faces, piece.face, cut, side)
+    }
+
+    /// Cuts a piece at a border, unless it reaches no further than the tolerance beyond it.
+    fn cut(&mut self, piece: &Piece, border: &PreparedPlane, inside: Side) -> Result<Cut, Error> {
+        let cut = piece.cut_vertices(self.arena);
+        if !border.leaves(self.faces, piece.face, cut, inside) {
+            return Ok(Cut::Within);
+        }
+        let side = piece.exact_side(self.faces, border, self.arena);
+        if side != Side::Spanning {
+            return Ok(if side == inside { Cut::Within } else { Cut::Beyond });
+        }
+        let [front, back] = self.splitter.cut(self.faces, border, piece, self.arena)?;
+        Ok(Cut::Parts(if inside == Side::Front { [front, back] } else { [back, front] }))
+    }
+
+    /// Cuts a piece with many hosts at a border of a host in their middle: at the border with the most even numbers of
+    /// hosts on its sides. `None` if no border cuts it.
+    fn halves(
+        &mut self,
+        piece: &Piece,
+        hosts: &[Host],
+        under: &[u32],
+    ) -> Result<Option<[Piece; 2]>, Error> {
+        let middle = |&host: &u32| hosts[host as usize].middle();
+        let middles: Vec<DVec3> = under.iter().map(middle).collect();
+        let low = middles.iter().fold(DVec3::INFINITY, |low, middle| low.min(*middle));
+        let high = middles.iter().fold(DVec3::NEG_INFINITY, |high, middle| high.max(*middle));
+        let size = (high - low).to_array();
+        let axis = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(0);
+        let mut order: Vec<usize> = (0..under.len()).collect();
+        let (_, &mut central, _) = order.select_nth_unstable_by(under.len() / 2, |&a, &b| {
+            middles[a][axis].total_cmp(&middles[b][axis]).then(a.cmp(&b))
+        });
+        let central = &hosts[under[central] as usize];
+        let mut borders = self.borders.of(self.faces, central)?;
+        let balance = |border: &PreparedPlane| {
+            let in_front = |middle: &&DVec3| border.distance(middle.to_array()) > 0.0;
+            let front = middles.iter().filter(in_front).count();
+            front.abs_diff(middles.len() - front)
+        };
+        borders.sort_by_cached_key(|(border, _)| balance(border));
+        for (border, inside) in borders {
+            if let Cut::Parts(parts) = self.cut(piece, &border, inside)? {
+                return Ok(Some(parts));
+            }
+        }
+        Ok(None)
     }
 
     /// Places a part of the piece. Without a side of its hosts it has its own.
-    fn push(&mut self, piece: Piece, side: Option<Side>) -> Result<(), Error> {
+    fn place(&mut self, piece: Piece, side: Option<Side>) -> Result<(), Error> {
         let plane = self.beside.plane;
         let own = || plane.classify(self.faces, piece.face, piece.cut_vertices(self.arena));
         let side = side.unwrap_or_else(own);
@@ -296,36 +337,36 @@ impl Parting<'_, '_> {
     }
 }
 
-/// Replaces each near piece of a set that begins at `start` by its parts. `near` is in the order of the set if some piece
-/// has several parts. Returns the number of further parts.
+/// What a border does to a piece.
+enum Cut {
+    /// The piece is inside, or beyond the border by no more than the tolerance.
+    Within,
+    Beyond,
+    /// The parts inside and beyond.
+    Parts([Piece; 2]),
+}
+
+/// Replaces the near pieces of a set that begins at `start`, in the order of the set, each by its parts.
 fn merge(
     near: &[NearPiece],
     placed: &[Placed],
     start: usize,
     pieces: &mut Vec<Piece>,
     sides: &mut Vec<Side>,
-) -> usize {
-    let parts = |near: &NearPiece| &placed[near.parts[0] as usize..near.parts[1] as usize];
-    let further = placed.len() - near.len();
-    let (mut old, mut next) = (pieces.len(), pieces.len() + further);
-    if further > 0 {
-        pieces.resize(next, placed[0].piece);
-        sides.resize(next - start, Side::Coplanar);
-    }
+) {
+    let (mut old, mut next) = (pieces.len(), pieces.len() + placed.len() - near.len());
+    pieces.resize(next, placed[0].piece);
+    sides.resize(next - start, Side::Coplanar);
     // From the end, so that nothing unread is overwritten.
     for near in near.iter().rev() {
-        let (end, parts) = (start + near.place as usize + 1, parts(near));
-        if further > 0 {
-            let moved = old - end;
-            pieces.copy_within(end..old, next - moved);
-            sides.copy_within(end - start..old - start, next - moved - start);
-            (old, next) = (end - 1, next - moved - parts.len());
-        } else {
-            next = end - 1;
-        }
+        let parts = &placed[near.parts[0] as usize..near.parts[1] as usize];
+        let end = start + near.place as usize + 1;
+        let moved = next - (old - end);
+        pieces.copy_within(end..old, moved);
+        sides.copy_within(end - start..old - start, moved - start);
+        (old, next) = (end - 1, moved - parts.len());
         for (at, part) in (next..).zip(parts) {
             (pieces[at], sides[at - start]) = (part.piece, part.side);
         }
     }
-    further
 }

@@ -1,65 +1,110 @@
-//! The polygons of a tree on which an overlay's shapes lie.
+//! The polygons on which an overlay's shapes lie, and their borders.
+
+use std::collections::HashMap;
 
 use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::following::Beside;
-use super::region::Ground;
 use crate::build::piece::Piece;
 use crate::error::Error;
-use crate::exact::{EdgeLine, Faces, Outline, PlaneId, Side, Vertex};
+use crate::exact::{EdgeLine, Faces, Outline, PlaneId, PreparedPlane, Side, Vertex};
 use crate::memory::push;
 use crate::tree::bounds::outwards;
 use crate::tree::node::Ranges;
 use crate::tree::{Flat, Fragment};
 
-/// A polygon on which a piece lies, and its side of a plane.
-#[derive(Clone, Debug)]
+/// A polygon on which a piece lies: a fragment of a tree, or a piece of the overlay.
+#[derive(Debug)]
 pub(super) struct Host {
-    pub(super) origin: Origin,
+    pub(super) face: u32,
+    pub(super) outline: Outline,
+    /// The lines that bound the polygon.
+    lines: SmallVec<[EdgeLine; 4]>,
+    /// The side of a plane on which the polygon is, and whether the plane bounds it.
     pub(super) side: Side,
-    /// Whether the plane bounds the polygon.
     pub(super) is_cut: bool,
 }
 
-/// A polygon of a tree, or of the overlay.
-#[derive(Clone, Debug)]
-pub(super) enum Origin {
-    Fragment(u32),
-    Piece(Piece),
-}
-
 impl Host {
-    /// The face and the vertices.
-    pub(super) fn outline(
-        &self,
-        ground: Ground<'_>,
+    fn new(
+        face: u32,
+        outline: Outline,
+        lines: impl Iterator<Item = EdgeLine>,
+        (plane, side): (&PreparedPlane, Side),
+    ) -> Self {
+        let lines: SmallVec<[EdgeLine; 4]> = lines.collect();
+        let is_cut = lines.iter().any(|line| line.as_cut() == Some(plane.id()));
+        Self { face, outline, lines, side, is_cut }
+    }
+
+    /// A piece of the overlay.
+    pub(super) fn piece(
         faces: &Faces,
+        piece: &Piece,
         arena: &[Vertex],
-    ) -> (u32, Outline) {
-        match self.origin {
-            Origin::Fragment(fragment) => {
-                let fragment = ground.fragment(faces, fragment);
-                (fragment.face(), vertices(fragment))
+        beside: (&PreparedPlane, Side),
+    ) -> Self {
+        let outline = piece.outline(faces, arena);
+        match piece.cut_vertices(arena) {
+            Some(cut) => Self::new(piece.face, outline, cut.iter().map(Vertex::line), beside),
+            None => {
+                let lines = (0..outline.len() as u32).map(EdgeLine::edge);
+                Self::new(piece.face, outline, lines, beside)
             }
-            Origin::Piece(piece) => (piece.face, piece.outline(faces, arena)),
         }
     }
 
-    /// The lines that bound the polygon.
-    pub(super) fn lines(
-        &self,
-        ground: Ground<'_>,
-        faces: &Faces,
-        arena: &[Vertex],
-    ) -> SmallVec<[EdgeLine; 4]> {
-        match self.origin {
-            Origin::Fragment(fragment) => ground.fragment(faces, fragment).lines().collect(),
-            Origin::Piece(piece) => match piece.cut_vertices(arena) {
-                Some(cut) => cut.iter().map(Vertex::line).collect(),
-                None => Vertex::corners(faces, piece.face).map(|corner| corner.line()).collect(),
-            },
+    /// A point inside.
+    pub(super) fn middle(&self) -> DVec3 {
+        let sum: DVec3 = self.outline.iter().map(|p| DVec3::from(*p)).sum();
+        sum / self.outline.len() as f64
+    }
+}
+
+/// The planes through the edges of hosts, across the surface, so far.
+#[derive(Default)]
+pub(super) struct Borders {
+    /// The plane through the edge that begins at a corner, counted over all faces.
+    planes: HashMap<u32, Option<PlaneId>>,
+}
+
+impl Borders {
+    /// Forgets all planes.
+    pub(super) fn clear(&mut self) {
+        self.planes.clear();
+    }
+
+    /// The planes that bound a host, and on which side of each the host is.
+    pub(super) fn of(
+        &mut self,
+        faces: &mut Faces,
+        host: &Host,
+    ) -> Result<SmallVec<[(PreparedPlane, Side); 4]>, Error> {
+        let middle = host.middle().to_array();
+        let mut borders = SmallVec::new();
+        for line in &host.lines {
+            let plane = match line.as_edge() {
+                Some(k) => self.through(faces, host.face, k)?,
+                None => line.as_cut(),
+            };
+            let Some(plane) = plane else { continue };
+            let plane = PreparedPlane::new(faces, plane);
+            let is_in_front = plane.distance(middle) > 0.0;
+            borders.push((plane, if is_in_front { Side::Front } else { Side::Back }));
         }
+        Ok(borders)
+    }
+
+    /// The plane through an edge of a face, if it is defined.
+    fn through(&mut self, faces: &mut Faces, face: u32, k: u32) -> Result<Option<PlaneId>, Error> {
+        let corner = faces.corner_range(face).start as u32 + k;
+        if let Some(&known) = self.planes.get(&corner) {
+            return Ok(known);
+        }
+        let plane = faces.push_border(face, k)?;
+        self.planes.insert(corner, plane);
+        Ok(plane)
     }
 }
 
@@ -70,6 +115,7 @@ const FEW: usize = 8;
 /// A piece whose hosts are sought.
 pub(super) struct Sought<'a> {
     pub(super) piece: &'a Piece,
+    pub(super) arena: &'a [Vertex],
     pub(super) outline: &'a Outline,
     /// The piece's own side of the plane.
     pub(super) side: Side,
@@ -87,11 +133,11 @@ impl Beside<'_> {
         sought: &Sought<'_>,
         found: &mut Vec<Host>,
     ) -> Result<bool, Error> {
-        let &Sought { outline, side, is_within, .. } = sought;
+        let &Sought { piece, arena, outline, side, .. } = sought;
         if side == Side::Coplanar
             && let Some(fragment) = self.around(faces, outline)
         {
-            push(found, Host { origin: Origin::Fragment(fragment), side, is_cut: false })?;
+            push(found, self.as_host(faces, fragment, side))?;
             return Ok(true);
         }
         let near = self.boxes_near(faces, outline)?;
@@ -104,7 +150,9 @@ impl Beside<'_> {
             let first = near.partition_point(|&fragment| fragment < part.start);
             for &fragment in near[first..].iter().take_while(|fragment| part.contains(fragment)) {
                 if let Some(host) = self.host(faces, sought, fragment, side)? {
-                    is_open |= found.len() > start || !is_within && side != sought.side;
+                    let cut = piece.cut_vertices(arena);
+                    let may_go = self.plane.allows(faces, piece.face, cut, side);
+                    is_open |= found.len() > start || !may_go;
                     push(found, host)?;
                     break;
                 }
@@ -121,14 +169,7 @@ impl Beside<'_> {
                 push(found, host)?;
             }
         }
-        let face = |host: &Host| match host.origin {
-            Origin::Fragment(fragment) => (self.ground.face(fragment), fragment),
-            Origin::Piece(piece) => (piece.face, 0),
-        };
-        found[start..].sort_by(|a, b| {
-            let [a, b] = [a, b].map(face);
-            faces.largest_first(a.0, b.0).then(a.1.cmp(&b.1))
-        });
+        found[start..].sort_by(|a, b| faces.largest_first(a.face, b.face));
         Ok(false)
     }
 
@@ -175,17 +216,21 @@ impl Beside<'_> {
         side: Side,
     ) -> Result<Option<Host>, Error> {
         self.watch.work(1)?;
-        let host = self.ground.fragment(faces, fragment);
-        if !faces.are_coplanar(host.face(), sought.piece.face) {
+        if !faces.are_coplanar(self.ground.face(fragment), sought.piece.face) {
             return Ok(None);
         }
-        let is_cut = host.lines().any(|line| line.as_cut() == Some(self.plane.id()));
-        let vertices = vertices(host);
+        let host = self.as_host(faces, fragment, side);
         // The plane cuts a piece that leaves the plane as it has cut the host.
         let counts = sought.is_within
-            || !is_cut && (side == Side::Coplanar || self.plane.comes_near(&vertices));
-        let is_host = counts && faces.overlap(host.face(), [sought.outline, &vertices]);
-        Ok(is_host.then_some(Host { origin: Origin::Fragment(fragment), side, is_cut }))
+            || !host.is_cut && (side == Side::Coplanar || self.plane.comes_near(&host.outline));
+        let is_host = counts && faces.overlap(host.face, [sought.outline, &host.outline]);
+        Ok(is_host.then_some(host))
+    }
+
+    fn as_host(&self, faces: &Faces, fragment: u32, side: Side) -> Host {
+        let fragment = self.ground.fragment(faces, fragment);
+        let beside = (self.plane, side);
+        Host::new(fragment.face(), vertices(fragment), fragment.lines(), beside)
     }
 }
 

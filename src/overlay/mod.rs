@@ -1,6 +1,5 @@
 //! Moving polygons, lines and points beside a tree that does not change.
 
-mod borders;
 mod following;
 mod hosts;
 mod order;

@@ -1,6 +1,7 @@
 //! Shapes on a flat wall of several polygons whose planes differ by rounding. A shape within a larger polygon of the
 //! wall comes after that polygon, even if it also lies on the plane of a smaller one.
 
+use super::numbers::Numbers;
 use binspace::glam::{DQuat, EulerRot};
 use binspace::overlay::{Overlay, Shape, Shapes};
 use std::f64::consts::TAU;
@@ -121,6 +122,13 @@ fn one_card_or_many_on_a_wall_that_lies_on_another_plane() {
 
 const TAU_OF_SQUARES: f64 = 1e-3;
 
+/// The tree of one small square at z = 0, with much room beside it.
+fn beside_a_square() -> BspTree {
+    let options = BuildOptions::DEFAULT.with_tolerance(TAU_OF_SQUARES);
+    let options = options.with_bounds(DVec3::splat(-50.0), DVec3::splat(50.0));
+    options.build([square(40.0, 40.0, 1.0, 0.0)]).expect("a tree")
+}
+
 /// The numbers of polygons, `l` and `p` for lines and points, in the order from below or from above.
 fn painted(tree: &BspTree, overlay: &Overlay, z: f64) -> Vec<String> {
     names(tree, overlay, Viewpoint::direction([0.1, 0.2, z]))
@@ -177,9 +185,7 @@ fn each_piece_of_a_cut_shape_lies_on_the_wall() {
 #[test]
 fn shapes_on_one_another_follow_the_larger_one() {
     let t = TAU_OF_SQUARES;
-    let bounds = [DVec3::splat(-50.0), DVec3::splat(50.0)];
-    let options = BuildOptions::DEFAULT.with_tolerance(t).with_bounds(bounds[0], bounds[1]);
-    let tree = options.build([square(40.0, 40.0, 1.0, 0.0)]).expect("a tree");
+    let tree = beside_a_square();
     let mut overlay = Overlay::new(&tree);
     for (side, z) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         for [large, small] in [[0.9, 1.8], [1.5, 0.7]].map(|heights| heights.map(|h| side * h * t))
@@ -209,9 +215,7 @@ fn shapes_on_one_another_follow_the_larger_one() {
 #[test]
 fn a_card_does_not_follow_a_larger_shape_beside_it() {
     let t = TAU_OF_SQUARES;
-    let bounds = [DVec3::splat(-50.0), DVec3::splat(50.0)];
-    let options = BuildOptions::DEFAULT.with_tolerance(t).with_bounds(bounds[0], bounds[1]);
-    let tree = options.build([square(40.0, 40.0, 1.0, 0.0)]).expect("a tree");
+    let tree = beside_a_square();
     let mut overlay = Overlay::new(&tree);
     for (side, z) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         let [low, high] = [0.9, 1.8].map(|height| side * height * t);
@@ -227,9 +231,7 @@ fn a_card_does_not_follow_a_larger_shape_beside_it() {
 #[test]
 fn a_plane_that_cuts_the_larger_shape_leaves_the_smaller_one_whole() {
     let t = TAU_OF_SQUARES;
-    let bounds = [DVec3::splat(-50.0), DVec3::splat(50.0)];
-    let options = BuildOptions::DEFAULT.with_tolerance(t).with_bounds(bounds[0], bounds[1]);
-    let tree = options.build([square(40.0, 40.0, 1.0, 0.0)]).expect("a tree");
+    let tree = beside_a_square();
     let tilted = |square: [DVec3; 4]| square.map(|p| p.with_z(t * (p.x / 5.0 - 1.5)));
     let large = tilted(square(0.0, 0.0, 15.0, 0.0));
     let mut overlay = Overlay::new(&tree);
@@ -337,29 +339,6 @@ fn a_line_on_a_polygon_of_the_overlay_comes_after_it() {
     enough!(near > 30; "{near}");
 }
 
-/// How the corners of a wall and of shapes on it are given.
-#[derive(Clone, Copy, Debug)]
-enum Numbers {
-    Single,
-    Decimal(i32),
-}
-
-impl Numbers {
-    fn round(self, p: DVec3) -> DVec3 {
-        match self {
-            Self::Single => p.as_vec3().as_dvec3(),
-            Self::Decimal(places) => (p * 10f64.powi(places)).round() / 10f64.powi(places),
-        }
-    }
-
-    fn tolerance(self) -> Option<f64> {
-        match self {
-            Self::Single => None,
-            Self::Decimal(places) => Some(2.0 * 10f64.powi(-places)),
-        }
-    }
-}
-
 /// A flat polygon in triangles, a small grid of squares, or both; with small cards on it, and some other triangles.
 fn wall(dice: &mut Dice, at: impl Fn(f64, f64) -> DVec3) -> Vec<Corners> {
     let mut all: Vec<Corners> = Vec::new();
@@ -428,16 +407,7 @@ fn judge(dice: &mut Dice, numbers: Numbers, judged: &mut Judged) {
         .filter(|polygon| area(polygon) > 1e-7)
         .collect();
     let heuristic = Heuristic::ALL[dice.below(Heuristic::ALL.len())];
-    let mut options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-    if let Some(tolerance) = numbers.tolerance() {
-        options = options.with_tolerance(tolerance);
-    }
-    let single = |polygon: &Corners| polygon.iter().map(|p| p.as_vec3()).collect::<Vec<_>>();
-    let tree = match numbers {
-        Numbers::Single => options.build(polygons.iter().map(single)),
-        _ => options.build(&polygons),
-    }
-    .expect("a tree");
+    let tree = numbers.tree(BuildOptions::DEFAULT.with_heuristic(heuristic), &polygons);
     let mut overlay = Overlay::new(&tree);
     for _ in 0..8 {
         let fragment = tree.fragment(dice.below(tree.len()) as u32);
@@ -462,13 +432,13 @@ fn judge(dice: &mut Dice, numbers: Numbers, judged: &mut Judged) {
             continue;
         }
         let used = &card[..3 - kind];
-        let replaced = match (numbers, kind) {
-            (Numbers::Single, 0) => overlay.replace(&tree, [card.map(|p| p.as_vec3())]),
-            (_, 0) => overlay.replace(&tree, [card]),
-            (_, 1) => overlay.replace_with(&tree, Shapes::NONE.with_lines([used])),
-            _ => overlay.replace_with(&tree, Shapes::NONE.with_points([card[0]])),
+        let (shape, none): ([Corners; 1], &[Corners]) = ([used.to_vec()], &[]);
+        let is_on_grid = match kind {
+            0 => numbers.replace(&mut overlay, &tree, [&shape, none], &[]),
+            1 => numbers.replace(&mut overlay, &tree, [none, &shape], &[]),
+            _ => numbers.replace(&mut overlay, &tree, [none; 2], used),
         };
-        if replaced.is_err() || overlay.is_empty() {
+        if !is_on_grid || overlay.is_empty() {
             continue;
         }
         let faces = overlay.faces();

@@ -14,6 +14,7 @@ mod judge;
 mod lines;
 mod marks;
 mod mesh;
+mod numbers;
 mod oracle;
 mod same;
 mod sight;

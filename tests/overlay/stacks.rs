@@ -2,6 +2,7 @@
 //! over several of these, text on the label, a line and a point on the text. Each comes after those on which it lies,
 //! from both sides.
 
+use super::numbers::Numbers;
 use binspace::glam::{DQuat, DVec2, EulerRot, dvec2};
 use binspace::overlay::{Overlay, Shape, Shapes};
 use std::f64::consts::TAU;
@@ -31,6 +32,11 @@ fn is_inside(polygon: &[DVec2], p: DVec2, margin: f64) -> bool {
     low > margin || high < -margin
 }
 
+fn bounds(piece: &[DVec2]) -> [DVec2; 2] {
+    let nothing = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    piece.iter().fold(nothing, |[low, high], &p| [low.min(p), high.max(p)])
+}
+
 /// Some points of a piece: of a polygon, a segment or a point.
 fn samples(dice: &mut Dice, piece: &[DVec2]) -> Vec<DVec2> {
     let mixed = |_| {
@@ -39,23 +45,6 @@ fn samples(dice: &mut Dice, piece: &[DVec2]) -> Vec<DVec2> {
         piece.iter().zip(&weights).map(|(p, weight)| *p * (*weight / sum)).sum()
     };
     (0..12).map(mixed).collect()
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Numbers {
-    Single,
-    Double,
-    Decimal(i32),
-}
-
-impl Numbers {
-    fn round(self, p: DVec3) -> DVec3 {
-        match self {
-            Self::Single => p.as_vec3().as_dvec3(),
-            Self::Double => p,
-            Self::Decimal(places) => (p * 10f64.powi(places)).round() / 10f64.powi(places),
-        }
-    }
 }
 
 /// Counts of shapes on the wall, and of shapes on other shapes.
@@ -92,17 +81,7 @@ fn judge(seed: u64, numbers: Numbers, judged: &mut Judged) {
         wall.push((0..3).map(|_| numbers.round(dice.point(-1.5, 1.5))).collect());
     }
     let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-5.0), DVec3::splat(5.0));
-    let tolerance = match numbers {
-        Numbers::Decimal(places) => 2.0 * 10f64.powi(-places),
-        _ => 0.0,
-    };
-    let options = if tolerance > 0.0 { room.with_tolerance(tolerance) } else { room };
-    let single = |polygon: &Corners| polygon.iter().map(|p| p.as_vec3()).collect::<Vec<_>>();
-    let tree = match numbers {
-        Numbers::Single => options.build(wall.iter().map(single)),
-        _ => options.build(&wall),
-    }
-    .expect("a tree");
+    let tree = numbers.tree(room, &wall);
 
     let sized = |dice: &mut Dice, low, high| dvec2(dice.range(low, high), dice.range(low, high));
     let (at, size) = (sized(dice, -0.9, -0.3), sized(dice, 0.4, 1.1));
@@ -119,18 +98,11 @@ fn judge(seed: u64, numbers: Numbers, judged: &mut Judged) {
     let (line, point) = ([corner(dice), corner(dice)], corner(dice));
     let corners: Vec<Corners> =
         polygons.iter().map(|polygon| polygon.iter().map(given).collect()).collect();
-    let (ends, place) = (line.map(|p| given(&p)), given(&point));
     let mut overlay = Overlay::new(&tree);
-    let shapes = Shapes::NONE.with_lines([ends]).with_points([place]);
-    match numbers {
-        Numbers::Single => {
-            overlay.replace_with(&tree, shapes.with_polygons(corners.iter().map(single)))
-        }
-        _ => overlay.replace_with(&tree, shapes.with_polygons(&corners)),
-    }
-    .expect("on the grid");
+    let (ends, place) = (line.map(|p| given(&p)).to_vec(), given(&point));
+    assert!(numbers.replace(&mut overlay, &tree, [&corners, &[ends]], &[place]), "on the grid");
 
-    let margin = 1e-4 + 4.0 * tolerance;
+    let margin = 1e-4 + 4.0 * numbers.tolerance().unwrap_or_default();
     let count = polygons.len();
     let mut was_cut = false;
     for sign in [1.0, -1.0] {
@@ -153,10 +125,15 @@ fn judge(seed: u64, numbers: Numbers, judged: &mut Judged) {
                 _ => None,
             })
             .collect();
+        let boxes: Vec<[DVec2; 2]> = pieces.iter().map(|piece| bounds(&piece.1)).collect();
         was_cut |= pieces.iter().filter(|(shape, _)| *shape == 1).count() > 1;
         for (place, (late, piece)) in pieces.iter().enumerate().filter(|(_, piece)| piece.0 > 0) {
-            let points = samples(dice, piece);
+            let (points, around) = (samples(dice, piece), bounds(piece));
             for (other, (early, outline)) in pieces.iter().enumerate() {
+                let [low, high] = boxes[other];
+                if low.cmpgt(around[1]).any() || high.cmplt(around[0]).any() {
+                    continue;
+                }
                 let lies_on = |p: &DVec2| is_inside(outline, *p, margin);
                 if early < late && *early <= count && points.iter().any(lies_on) {
                     let on = usize::from(*early > 0);
@@ -187,6 +164,40 @@ fn shapes_of_a_stack_come_one_after_the_other() {
         let most = if is_coarse { 40 } else { 2 };
         enough!(pairs[0].min(pairs[1]) > 2000, cut > most; "{numbers:?}: {judged:?}");
     }
+}
+
+/// A label over many strips of rising width, and over many squares: not more pieces than polygons below it.
+#[test]
+fn a_label_over_n_polygons_has_at_most_about_n_pieces() {
+    let turn = DQuat::from_euler(EulerRot::XYZ, 0.1, 0.8, 1.1);
+    let at = |p: &DVec2| turn * (p.extend(1.3));
+    let mut most = 0;
+    for n in [64_usize, 256, 1024] {
+        let (mut strips, mut x) = (vec![], -1.0);
+        for i in 0..n {
+            let width = (1.0 + i as f64 / n as f64) * 4.0 / (3 * n - 1) as f64;
+            strips.push(rectangle(dvec2(x, -1.0), dvec2(width, 2.0)));
+            x += width;
+        }
+        let m = n.isqrt();
+        let size = DVec2::splat(2.0 / m as f64);
+        let square = |i| rectangle(dvec2((i % m) as f64, (i / m) as f64) * size - DVec2::ONE, size);
+        let squares: Vec<Flat> = (0..m * m).map(square).collect();
+        let label = rectangle(dvec2(-0.97, -0.9), dvec2(1.93, 1.81));
+        for wall in [strips, squares] {
+            for numbers in [Numbers::Single, Numbers::Decimal(4)] {
+                let given = |polygon: &Flat| polygon.iter().map(|p| numbers.round(at(p))).collect();
+                let wall: Vec<Corners> = wall.iter().map(given).collect();
+                let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-5.0), DVec3::splat(5.0));
+                let tree = numbers.tree(room, &wall);
+                let mut overlay = Overlay::new(&tree);
+                assert!(numbers.replace(&mut overlay, &tree, [&[given(&label)], &[]], &[]));
+                assert!(overlay.len() <= n, "{n} {numbers:?}: {}", overlay.len());
+                most = most.max(overlay.len());
+            }
+        }
+    }
+    enough!(most > 50; "{most}");
 }
 
 /// A square of the wall whose plane the label leaves on one side, but the text on it does not.
