@@ -416,8 +416,7 @@ pub(super) fn in_layers(
 mod tests {
     use super::*;
 
-    const COURSE: ImageLine =
-        ImageLine { foot: [0.0; 2], direction: [1.0, 0.0], places: [0.0, 10.0] };
+    const COURSE: ImageLine = ImageLine::TEN_ALONG_X;
 
     /// The ends of parts, and whether each is inside.
     fn parts_of(intervals: &[[f64; 2]]) -> Vec<([f64; 2], bool)> {

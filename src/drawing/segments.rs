@@ -335,6 +335,11 @@ impl ProjectedSegment {
 }
 
 impl ImageLine {
+    /// A segment from the picture's corner along its side.
+    #[cfg(test)]
+    pub(super) const TEN_ALONG_X: Self =
+        Self { foot: [0.0; 2], direction: [1.0, 0.0], places: [0.0, 10.0] };
+
     /// The point of the line at a place.
     pub(super) fn at(&self, place: f64) -> [f64; 2] {
         [0, 1].map(|axis: usize| self.foot[axis] + self.direction[axis] * place)

@@ -133,7 +133,7 @@ impl Following {
             beside.watch.work(compared)?;
             touching.sort_unstable();
             let touching = touching.iter().map(|&other| near[other as usize]);
-            let above = above(faces, beside, (piece, arena), touching, placed);
+            let above = above(faces, beside, (piece, arena), touching, placed)?;
             let NearPiece { hosts: [first, end], is_one_side, .. } = near[number];
             let hosts = &found[first as usize..end as usize];
             let begin = as_u32(placed.len())?;
@@ -154,7 +154,7 @@ fn above(
     (piece, arena): (&Piece, &[Vertex]),
     touching: impl Iterator<Item = NearPiece>,
     placed: &[Placed],
-) -> Vec<Host> {
+) -> Result<Vec<Host>, Error> {
     let (outline, mut found) = (piece.outline(faces, arena), Vec::<Host>::new());
     for NearPiece { parts: [first, end], .. } in touching {
         let parts = &placed[first as usize..end as usize];
@@ -165,14 +165,15 @@ fn above(
         if face == piece.face || !faces.are_coplanar(face, piece.face) {
             continue;
         }
+        beside.watch.work(parts.len())?;
         for part in parts {
             let host = Host::piece(faces, &part.piece, arena, (beside.plane, part.side));
             if faces.overlap(face, [&host.outline, &outline]) {
-                found.push(host);
+                push(&mut found, host)?;
             }
         }
     }
-    found
+    Ok(found)
 }
 
 /// The most hosts that are taken one by one, the largest first. Too small: hosts that overlap one another may decide in
