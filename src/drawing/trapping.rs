@@ -170,7 +170,7 @@ impl Trapper<'_> {
         near.clear();
         strips.clear();
         match sides.twins[side] {
-            NONE => grid.find_near(sides, side, path, near, watch)?,
+            NONE => grid.find_along(sides, side, path, frame, near, watch)?,
             twin if sides.paths[twin as usize] as usize > path => near.push(twin),
             _ => {}
         }
@@ -365,25 +365,30 @@ impl Grid {
         Ok(grid)
     }
 
-    /// Finds the sides of later paths near a side, those of one convex part after another.
-    fn find_near(
+    /// Finds the sides of later paths along a side, those of one convex part after another.
+    fn find_along(
         &self,
         sides: &PlacedSides<'_>,
         side: usize,
         path: usize,
+        frame: &SideFrame,
         found: &mut Vec<u32>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
+        let is_along = |&other: &u32| {
+            let ends = sides.ends(other as usize).map(|end| frame.local(end));
+            sides.paths[other as usize] > path as u32 && frame.along(ends).is_some()
+        };
         found.clear();
         for cells in self.passed(sides.ends(side), WIDTH) {
             let first = self.entries.partition_point(|&(cell, _)| (cell as usize) < cells.start);
-            let here =
-                self.entries[first..].iter().take_while(|&&(cell, _)| (cell as usize) < cells.end);
-            let before = found.len();
-            found.extend(here.map(|&(_, number)| number));
-            watch.work(1 + found.len() - before)?;
+            let here = self.entries[first..].iter();
+            let here = here.take_while(|&&(cell, _)| (cell as usize) < cells.end);
+            let mut examined = 1;
+            let numbers = here.inspect(|_| examined += 1).map(|&(_, number)| number);
+            found.extend(numbers.filter(is_along));
+            watch.work(examined)?;
         }
-        found.retain(|&number| sides.paths[number as usize] > path as u32);
         found.sort_unstable();
         found.dedup();
         Ok(())
