@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use std::collections::hash_map::Entry;
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::cell::Cell;
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
@@ -51,8 +52,8 @@ struct CommonSide {
 /// line.
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
-/// For each line of a cut and each face that reaches through the plane of another face in this line, the other face.
-type Through = Table<(HalfPlane, u32), u32>;
+/// For each line of a cut and each face that reaches through the planes of other faces in this line, the other faces.
+type Through = Table<(HalfPlane, u32), SmallVec<[u32; 2]>>;
 
 impl VisibilityMap<'_> {
     /// Returns the lines in which polygons intersect, as [runs](EdgeRun) of the kind [`EdgeKind::Crossing`].
@@ -269,11 +270,13 @@ impl VisibilityMap<'_> {
         let do_pass = match known.entry((a.line, pair)) {
             Entry::Occupied(known) => *known.get(),
             Entry::Vacant(unknown) => {
-                watch.work(self.edges_work(pair))?;
+                let planes_of = |face: u32| through.get(&(a.line, face)).map_or(&[][..], |all| all);
+                let count = pair.map(|face| planes_of(face).len()).iter().sum::<usize>();
+                watch.work(count + self.edges_work(pair))?;
                 // Each reaches through a plane on which the other one lies: its own, or that of the cut.
                 let reaches = |face: u32, other: u32| {
                     let is_on = |&plane: &u32| faces.is_on_plane_of(other, plane);
-                    faces.straddles(face, other) || through.get(&(a.line, face)).is_some_and(is_on)
+                    faces.straddles(face, other) || planes_of(face).iter().any(is_on)
                 };
                 let [one, other] = pair;
                 let do_pass = reaches(one, other) && reaches(other, one);
@@ -283,8 +286,7 @@ impl VisibilityMap<'_> {
         Ok(do_pass && (lines.is_cut_of(a.line, pair) || lines.do_meet(pair, a.line, part.ends)))
     }
 
-    /// The faces that reach through the planes of cuts. If a face reaches through several planes in one line, the
-    /// largest face's plane counts.
+    /// The faces that reach through the planes of cuts.
     fn through(&self, watch: &Watch<'_>) -> Result<Through, Error> {
         let lines = &self.primitives.lines;
         let faces = lines.frame.faces;
@@ -293,10 +295,7 @@ impl VisibilityMap<'_> {
             watch.work(VISITED + self.edges_work(pair))?;
             for [face, plane] in [[one, other], [other, one]] {
                 if faces.straddles(face, plane) {
-                    let known = through.entry((line, face)).or_insert(plane);
-                    if faces.largest_first(plane, *known).is_lt() {
-                        *known = plane;
-                    }
+                    through.entry((line, face)).or_default().push(plane);
                 }
             }
         }

@@ -214,6 +214,12 @@ impl PreparedPlane {
         low <= self.twice() && high >= -self.twice()
     }
 
+    /// Whether these rounded vertices are nowhere further inside than the tolerance.
+    pub(crate) fn has_beyond(&self, inside: Side, vertices: &[[f64; 3]]) -> bool {
+        let (low, high) = self.extent(vertices.iter().copied());
+        (if inside == Side::Front { high } else { -low }) <= self.band + self.bound
+    }
+
     /// A bound on the rounded distance of points within twice the tolerance.
     fn twice(&self) -> f64 {
         2.0 * self.band + self.bound

@@ -100,6 +100,9 @@ impl PreparedPlane {
     }
 }
 
+/// Vertices of outlines are rounded: a side may turn the wrong way if it is shorter than this, in lattice units.
+const ROUNDED: f64 = 8.0;
+
 /// Whether some side of a convex outline has no point of another convex outline inside by more than a margin. From one
 /// side to the next, the point furthest inside moves on around the other outline (rotating calipers: Toussaint,
 /// “Solving geometric problems with the rotating calipers”, 1983).
@@ -112,20 +115,23 @@ fn has_outside(outline: &[DVec2], other: &[DVec2], margin: f64) -> bool {
             return false;
         }
         let inside = |point: usize| side.perp_dot(other[point] - a);
+        let most = margin * side.length();
         // After a sharp turn, rounding could hide in which direction the way inside leads.
         let mut here = match last {
             Some((before, point)) if before.dot(side) > 0.0 => point,
             _ => (0..other.len()).max_by(|&p, &q| inside(p).total_cmp(&inside(q))).unwrap_or(0),
         };
+        let (mut next, slack) = (here, ROUNDED * side.length());
         for _ in 0..other.len() {
-            let next = (here + step) % other.len();
-            if inside(next) < inside(here) {
+            next = (next + step) % other.len();
+            if inside(next) >= inside(here) {
+                here = next;
+            } else if inside(next) < inside(here) - slack {
                 break;
             }
-            here = next;
         }
         last = Some((side, here));
-        inside(here) <= margin * side.length()
+        inside(here) <= most
     })
 }
 
@@ -235,6 +241,32 @@ mod tests {
             }
         }
         assert!(found.iter().all(|&count| count > 1000), "{found:?}");
+    }
+
+    /// A corner of a triangle is there twice, with a difference that is smaller than a rounding. Octagons inside.
+    #[test]
+    fn corners_that_rounding_separates_hide_no_overlap() {
+        let wall = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]].map(DVec3::from_array);
+        let (faces, _) = Faces::new([wall], Some(0.0)).unwrap();
+        let size = 42_f64.exp2();
+        let (tip, rest) = ([8.0 * size, 10.0 * size], [[-100.0, -50.0], [20.0, -50.0]]);
+        let twice = [tip, [tip[0], tip[1] - (-7_f64).exp2()]];
+        let outline = |tips: &[[f64; 2]]| -> Outline {
+            let rest = rest.iter().map(|corner| corner.map(|c| c * size));
+            tips.iter().copied().chain(rest).map(|[x, y]| [x, y, 0.0]).collect()
+        };
+        let [once, twice] = [&[tip][..], &twice].map(outline);
+        let mut count = 0;
+        for (x, y) in (0..5).flat_map(|x| (0..5).map(move |y| (x, y))) {
+            let middle = DVec2::new(10.0 * f64::from(x) - 140.0, 15.0 * f64::from(y) - 60.0);
+            let corner = |k: f64| middle + DVec2::from_angle((k + 0.5) * TAU / 8.0) * 60.0;
+            let octagon: Outline =
+                (0..8).map(|k| (corner(f64::from(k)) * size).extend(0.0).to_array()).collect();
+            let expected = faces.overlap(0, [&octagon, &once]);
+            assert_eq!(faces.overlap(0, [&octagon, &twice]), expected, "{x}, {y}");
+            count += usize::from(expected);
+        }
+        assert!(count > 20, "{count}");
     }
 
     /// Small cards far from the origin of the grid.

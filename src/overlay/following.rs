@@ -4,9 +4,10 @@
 //! less certain, and extended across a large polygon in the same plane it can deviate from that polygon by more than the
 //! tolerance. The large polygon is then on one side of the plane, or the plane cuts it, and the shape has to go with it.
 //!
-//! A shape follows the largest polygon of the overlay on which it lies. Beyond that polygon, or without one, it follows
-//! its [hosts](Beside::hosts). If these are on several sides of the plane, the shape is cut at their [borders](Borders).
-//! So each part of a shape goes with the polygon on which it lies, though the polygons' planes differ by rounding.
+//! A shape follows the polygons of the overlay on which it lies, the largest first. Beyond these, or without one, it follows
+//! its [hosts](Beside::hosts) in the tree. If hosts are on several sides of the plane, the shape is cut at their
+//! [borders](Borders). So each part of a shape goes with the polygon on which it lies, though the polygons' planes differ by
+//! rounding.
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -17,7 +18,7 @@ use crate::build::choose::{SortedPieces, is_along};
 use crate::build::piece::{Piece, Splitter};
 use crate::error::Error;
 use crate::exact::{Faces, PreparedPlane, Side, Vertex};
-use crate::memory::{place as as_u32, push};
+use crate::memory::{place as as_u32, push, reserve};
 use crate::progress::Watch;
 use crate::tree::node::Ranges;
 
@@ -119,12 +120,12 @@ impl Following {
         let numbers: Vec<u32> = (0..near.len() as u32).collect();
         let all: Vec<Piece> = near.iter().map(|near| set[near.place as usize]).collect();
         let polygons = all.partition_point(|piece| faces.has_area(piece.face));
-        let leaders = SortedPieces::of(&all, &numbers[..polygons]);
+        let sorted = SortedPieces::of(&all, &numbers[..polygons]);
         placed.clear();
         for (number, piece) in all.iter().enumerate() {
             let mut touching: SmallVec<[u32; 16]> = SmallVec::new();
             let mut compared = 0;
-            for &other in leaders.touching(&all, piece, tolerance) {
+            for &other in sorted.touching(&all, piece, tolerance) {
                 compared += 1;
                 if (other as usize) < number && all[other as usize].touches(piece, tolerance) {
                     touching.push(other);
@@ -132,45 +133,55 @@ impl Following {
             }
             beside.watch.work(compared)?;
             touching.sort_unstable();
-            let touching = touching.iter().map(|&other| near[other as usize]);
-            let above = above(faces, beside, (piece, arena), touching, placed)?;
+            let touching =
+                touching.iter().map(|&other| (near[other as usize], &all[other as usize]));
+            let leaders = of_overlay(faces, beside, (piece, arena), touching, placed)?;
             let NearPiece { hosts: [first, end], is_one_side, .. } = near[number];
             let hosts = &found[first as usize..end as usize];
             let begin = as_u32(placed.len())?;
+            let count = leaders.len();
+            let (hosts, rest) = match is_one_side {
+                true => (&[][..], Some(hosts[0].side)),
+                false => (hosts, None),
+            };
+            let hosts: Vec<&Host> = leaders.iter().chain(hosts).collect();
             let mut parting = Parting { faces, beside, borders, arena, splitter, placed };
-            parting.part(*piece, [&above, hosts], is_one_side)?;
+            parting.part(*piece, (&hosts, count), rest)?;
             near[number].parts = [begin, as_u32(placed.len())?];
         }
         near.sort_unstable_by_key(|near| near.place);
-        merge(near, placed, start, pieces, sides);
-        Ok(())
+        merge(near, placed, start, pieces, sides)
     }
 }
 
-/// The parts of the largest polygon of the overlay on which a piece lies, of those in `touching`, the largest first.
-fn above(
+/// The parts of polygons of the overlay on which a piece lies, of those in `touching`, the largest first. Once one of these
+/// contains the piece, smaller ones do not count.
+fn of_overlay<'p>(
     faces: &Faces,
     beside: &Beside<'_>,
     (piece, arena): (&Piece, &[Vertex]),
-    touching: impl Iterator<Item = NearPiece>,
+    touching: impl Iterator<Item = (NearPiece, &'p Piece)>,
     placed: &[Placed],
 ) -> Result<Vec<Host>, Error> {
-    let (outline, mut found) = (piece.outline(faces, arena), Vec::<Host>::new());
-    for NearPiece { parts: [first, end], .. } in touching {
-        let parts = &placed[first as usize..end as usize];
-        let face = parts[0].piece.face;
-        if found.first().is_some_and(|found| found.face != face) {
-            break;
-        }
+    let (outline, mut found) = (piece.outline(faces, arena), Vec::new());
+    for (NearPiece { parts: [first, end], .. }, whole) in touching {
+        let face = whole.face;
         if face == piece.face || !faces.are_coplanar(face, piece.face) {
             continue;
         }
+        let parts = &placed[first as usize..end as usize];
         beside.watch.work(parts.len())?;
         for part in parts {
+            if !part.piece.touches(piece, faces.tolerance()) {
+                continue;
+            }
             let host = Host::piece(faces, &part.piece, arena, (beside.plane, part.side));
             if faces.overlap(face, [&host.outline, &outline]) {
                 push(&mut found, host)?;
             }
+        }
+        if faces.is_inside(face, [&outline, &whole.outline(faces, arena)]) {
+            break;
         }
     }
     Ok(found)
@@ -179,6 +190,9 @@ fn above(
 /// The most hosts that are taken one by one, the largest first. Too small: hosts that overlap one another may decide in
 /// another order. Too large: time, because each is compared with what is left of the piece.
 const FEW: usize = 8;
+
+/// Parts of a piece that are not placed yet, each with the numbers of hosts that it may overlap.
+type Unplaced = SmallVec<[(Piece, Vec<u32>); 4]>;
 
 /// The cutting of one piece of a set.
 struct Parting<'a, 'b> {
@@ -191,83 +205,147 @@ struct Parting<'a, 'b> {
 }
 
 impl Parting<'_, '_> {
-    /// Cuts a piece into parts that each lie on polygons on one side only: on those of the overlay, otherwise on those of
-    /// the tree, otherwise on none. Of the tree's, the first decides for all parts if `is_one_side`.
-    fn part(&mut self, piece: Piece, lists: [&[Host]; 2], is_one_side: bool) -> Result<(), Error> {
-        let plane = self.beside.plane;
-        // The parts to be placed, each with the list from which its hosts are, and the hosts' numbers.
-        let all = |list: usize| (0..lists[list].len() as u32).collect::<Vec<_>>();
-        let mut stack: SmallVec<[(Piece, usize, Vec<u32>); 4]> = SmallVec::new();
-        stack.push((piece, 0, all(0)));
-        while let Some((mut piece, list, mut under)) = stack.pop() {
-            let hosts = lists[list];
+    /// Cuts a piece into parts that each go with one of its hosts: the first `leaders` are of the overlay, the others of the
+    /// tree. `rest` is the side of parts beyond these, if it is known.
+    fn part(
+        &mut self,
+        piece: Piece,
+        (hosts, leaders): (&[&Host], usize),
+        rest: Option<Side>,
+    ) -> Result<(), Error> {
+        let mut stack = Unplaced::new();
+        stack.push((piece, (0..hosts.len() as u32).collect()));
+        while let Some((piece, mut under)) = stack.pop() {
             self.beside.watch.work(under.len())?;
             let outline = piece.outline(self.faces, self.arena);
             under.retain(|&host| {
-                let Host { face, outline: other, .. } = &hosts[host as usize];
+                let Host { face, outline: other, .. } = hosts[host as usize];
                 self.faces.overlap(*face, [other, &outline])
             });
-            let Some(&first) = under.first() else {
-                match (list, lists[1].first()) {
-                    (0, Some(host)) if is_one_side => self.place(piece, Some(host.side))?,
-                    (0, Some(_)) => stack.push((piece, 1, all(1))),
-                    _ => self.place(piece, None)?,
-                }
+            let Some(&number) = under.first() else {
+                self.place(piece, rest)?;
                 continue;
             };
-            let first = &hosts[first as usize];
-            let is_one = under.iter().all(|&host| hosts[host as usize].side == first.side);
-            if is_one && self.may_go(&piece, first.side) {
+            let first = hosts[number as usize];
+            let is_same = |side: Side| side == first.side;
+            let is_one = under.iter().all(|&host| is_same(hosts[host as usize].side));
+            let is_one = is_one && rest.is_none_or(is_same);
+            let is_on_first = || self.faces.is_inside(first.face, [&outline, &first.outline]);
+            if (is_one || is_on_first()) && self.may_go(&piece, first.side) {
                 self.place(piece, Some(first.side))?;
                 continue;
             }
-            // Where the plane has cut a host, it cuts the piece too.
-            if first.is_cut {
-                let on_side = |side: Side| {
-                    let is_other = |host: &Host| host.is_cut && host.side != side;
-                    let same = under.iter().filter(|&&host| !is_other(&hosts[host as usize]));
-                    same.copied().collect::<Vec<_>>()
-                };
-                let side = piece.exact_side(self.faces, plane, self.arena);
-                if side == Side::Spanning {
-                    let [front, back] = self.splitter.cut(self.faces, plane, &piece, self.arena)?;
-                    stack.push((back, list, on_side(Side::Back)));
-                    stack.push((front, list, on_side(Side::Front)));
-                    continue;
-                }
-                let left = on_side(side);
-                if left.len() < under.len() {
-                    stack.push((piece, list, left));
-                    continue;
-                }
-            }
-            if under.len() > FEW
-                && let Some(parts) = self.halves(&piece, hosts, &under)?
+            if first.is_cut
+                && let Some(parts) = self.as_cut(piece, hosts, &under)?
             {
-                stack.extend(parts.map(|part| (part, list, under.clone())));
+                stack.extend(parts);
+                continue;
+            }
+            // Hosts of the tree count where there is none of the overlay.
+            let next = under.partition_point(|&host| (host as usize) < leaders);
+            let equal = if next == 0 { &under[..] } else { &under[..next] };
+            let mut parts = None;
+            if equal.len() > FEW {
+                parts = self.halves(&piece, hosts, equal)?;
+            }
+            if parts.is_none() {
+                parts = self.separated(&piece, hosts, &under)?;
+            }
+            if let Some(parts) = parts {
+                stack.extend(parts.map(|part| (part, under.clone())));
                 continue;
             }
             under.remove(0);
-            let mut is_beyond = false;
-            for (border, inside) in self.borders.of(self.faces, first)? {
-                match self.cut(&piece, &border, inside)? {
-                    Cut::Within => {}
-                    Cut::Beyond => is_beyond = true,
-                    Cut::Parts([within, beyond]) => {
-                        piece = within;
-                        stack.push((beyond, list, under.clone()));
-                    }
+            let mut beyond = SmallVec::new();
+            match self.within(piece, first, is_one, &mut beyond)? {
+                // The host is beside the piece.
+                None => stack.push((piece, under)),
+                Some(within) => {
+                    stack.extend(beyond.into_iter().map(|part| (part, under.clone())));
+                    let may_go = self.may_go(&within, first.side);
+                    self.place(within, may_go.then_some(first.side))?;
                 }
             }
-            // The host is beside what is left of the piece.
-            if is_beyond {
-                stack.push((piece, list, under));
-                continue;
-            }
-            let may_go = self.may_go(&piece, first.side);
-            self.place(piece, may_go.then_some(first.side))?;
         }
         Ok(())
+    }
+
+    /// Where the plane has cut hosts of a piece, it cuts the piece too. Returns the parts of the piece with their hosts;
+    /// `None` if the piece is on the side of all hosts that were cut.
+    fn as_cut(
+        &mut self,
+        piece: Piece,
+        hosts: &[&Host],
+        under: &[u32],
+    ) -> Result<Option<Unplaced>, Error> {
+        let on_side = |side: Side| {
+            let is_other = |host: &Host| host.is_cut && host.side != side;
+            let same = under.iter().filter(|&&host| !is_other(hosts[host as usize]));
+            same.copied().collect::<Vec<_>>()
+        };
+        let plane = self.beside.plane;
+        let side = piece.exact_side(self.faces, plane, self.arena);
+        if side == Side::Spanning {
+            let [front, back] = self.splitter.cut(self.faces, plane, &piece, self.arena)?;
+            let parts = [(back, on_side(Side::Back)), (front, on_side(Side::Front))];
+            return Ok(Some(parts.into_iter().collect()));
+        }
+        let left = on_side(side);
+        Ok((left.len() < under.len()).then(|| std::iter::once((piece, left)).collect()))
+    }
+
+    /// Cuts a piece at the border of its first host beyond which the most hosts of other sides lie. `None` if there is no
+    /// such border.
+    fn separated(
+        &mut self,
+        piece: &Piece,
+        hosts: &[&Host],
+        under: &[u32],
+    ) -> Result<Option<[Piece; 2]>, Error> {
+        let first = hosts[under[0] as usize];
+        let others = || under.iter().map(|&host| hosts[host as usize]);
+        let others = || others().filter(|host| host.side != first.side);
+        if others().next().is_none() {
+            return Ok(None);
+        }
+        let (mut best, mut most) = (None, 0);
+        for (border, inside) in self.borders.of(self.faces, first)? {
+            let beyond = others().filter(|host| border.has_beyond(inside, &host.outline)).count();
+            self.beside.watch.work(under.len())?;
+            if beyond > most {
+                (best, most) = (Some((border, inside)), beyond);
+            }
+        }
+        let Some((border, inside)) = best else { return Ok(None) };
+        Ok(match self.cut(piece, &border, inside)? {
+            Cut::Parts(parts) => Some(parts),
+            Cut::Within | Cut::Beyond => None,
+        })
+    }
+
+    /// Cuts a piece at the borders of a host. Returns the part within them, and appends the others to `beyond`; `None` if
+    /// the piece is beside the host. If all hosts are on one side, cuts no more than is needed for a part to go there.
+    fn within(
+        &mut self,
+        mut piece: Piece,
+        host: &Host,
+        is_one: bool,
+        beyond: &mut SmallVec<[Piece; 4]>,
+    ) -> Result<Option<Piece>, Error> {
+        for (border, inside) in self.borders.of(self.faces, host)? {
+            if is_one && self.may_go(&piece, host.side) {
+                break;
+            }
+            match self.cut(&piece, &border, inside)? {
+                Cut::Within => {}
+                Cut::Beyond => return Ok(None),
+                Cut::Parts([within, rest]) => {
+                    piece = within;
+                    beyond.push(rest);
+                }
+            }
+        }
+        Ok(Some(piece))
     }
 
     fn may_go(&self, piece: &Piece, side: Side) -> bool {
@@ -294,7 +372,7 @@ impl Parting<'_, '_> {
     fn halves(
         &mut self,
         piece: &Piece,
-        hosts: &[Host],
+        hosts: &[&Host],
         under: &[u32],
     ) -> Result<Option<[Piece; 2]>, Error> {
         let middle = |&host: &u32| hosts[host as usize].middle();
@@ -307,7 +385,7 @@ impl Parting<'_, '_> {
         let (_, &mut central, _) = order.select_nth_unstable_by(under.len() / 2, |&a, &b| {
             middles[a][axis].total_cmp(&middles[b][axis]).then(a.cmp(&b))
         });
-        let central = &hosts[under[central] as usize];
+        let central = hosts[under[central] as usize];
         let mut borders = self.borders.of(self.faces, central)?;
         let balance = |border: &PreparedPlane| {
             let in_front = |middle: &&DVec3| border.distance(middle.to_array()) > 0.0;
@@ -354,8 +432,11 @@ fn merge(
     start: usize,
     pieces: &mut Vec<Piece>,
     sides: &mut Vec<Side>,
-) {
-    let (mut old, mut next) = (pieces.len(), pieces.len() + placed.len() - near.len());
+) -> Result<(), Error> {
+    let more = placed.len() - near.len();
+    reserve(pieces, more)?;
+    reserve(sides, more)?;
+    let (mut old, mut next) = (pieces.len(), pieces.len() + more);
     pieces.resize(next, placed[0].piece);
     sides.resize(next - start, Side::Coplanar);
     // From the end, so that nothing unread is overwritten.
@@ -370,4 +451,5 @@ fn merge(
             (pieces[at], sides[at - start]) = (part.piece, part.side);
         }
     }
+    Ok(())
 }

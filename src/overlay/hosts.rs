@@ -90,8 +90,11 @@ impl Borders {
             };
             let Some(plane) = plane else { continue };
             let plane = PreparedPlane::new(faces, plane);
-            let is_in_front = plane.distance(middle) > 0.0;
-            borders.push((plane, if is_in_front { Side::Front } else { Side::Back }));
+            let is_behind = match line.as_cut() {
+                Some(_) => line.is_behind(),
+                None => plane.distance(middle) < 0.0,
+            };
+            borders.push((plane, if is_behind { Side::Back } else { Side::Front }));
         }
         Ok(borders)
     }

@@ -54,6 +54,41 @@ fn square(x: f64, y: f64, size: f64, z: f64) -> [DVec3; 4] {
     [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]].map(|[a, b]| dvec3(x + a, y + b, z))
 }
 
+/// Text lies across two labels, half a tolerance and 1.4 tolerances above or below a plane of the tree.
+#[test]
+fn text_across_two_labels_comes_after_both() {
+    let tolerance = 1e-3;
+    let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
+    let options = options.with_bounds(DVec3::splat(-50.0), DVec3::splat(50.0));
+    let tree = options.build([square(40.0, 40.0, 1.0, 0.0)]).expect("a tree");
+    let mut overlay = Overlay::new(&tree);
+    for side in [1.0, -1.0] {
+        let height = |height: f64| side * height * tolerance;
+        let [first, second] =
+            [square(0.0, 0.0, 15.0, height(0.5)), square(15.0, 0.0, 14.0, height(1.4))];
+        let text = square(14.0, 3.0, 2.0, height(0.95));
+        let shapes = Shapes::NONE.with_polygons([first, second, text]);
+        overlay.replace_with(&tree, shapes.with_lines([[text[0], text[2]]])).expect("on the grid");
+        for z in [1.0, -1.0] {
+            let order = overlay.order(&tree, Viewpoint::direction([0.1, 0.2, z]));
+            // The shapes whose parts are on the left and on the right of the border between the labels.
+            let mut sides = [vec![], vec![]];
+            for shape in order.expect("its own tree") {
+                let (name, points) = match shape {
+                    Shape::Fragment(f) if f.polygon() > 0 => {
+                        (f.polygon(), f.vertices().collect::<Vec<DVec3>>())
+                    }
+                    Shape::Segment(piece) => (4, piece.ends().to_vec()),
+                    _ => continue,
+                };
+                let middle = points.iter().map(|p| p.x).sum::<f64>() / points.len() as f64;
+                sides[usize::from(middle > 15.0)].push(name);
+            }
+            assert_eq!(sides, [vec![1, 3, 4], vec![2, 3, 4]], "{side} {z}");
+        }
+    }
+}
+
 /// A card lies over a small square and over a large one that is one and a half tolerances above or below. It is cut at
 /// the border, unless the squares are on one side of each plane.
 #[test]

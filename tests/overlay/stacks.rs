@@ -85,13 +85,22 @@ fn judge(seed: u64, numbers: Numbers, judged: &mut Judged) {
 
     let sized = |dice: &mut Dice, low, high| dvec2(dice.range(low, high), dice.range(low, high));
     let (at, size) = (sized(dice, -0.9, -0.3), sized(dice, 0.4, 1.1));
+    // One label or two side by side, and text on these or on text.
     let mut polygons = vec![rectangle(at, size)];
+    if dice.below(2) > 0 {
+        let left = size * dvec2(dice.range(0.3, 0.7), 1.0);
+        let right = rectangle(at + left.with_y(0.0), size - left.with_y(0.0));
+        polygons = vec![rectangle(at, left), right];
+    }
+    let mut under = vec![rectangle(at, size)];
     for _ in 0..1 + dice.below(3) {
         let size = sized(dice, 0.02, 0.25);
-        let outer = dice.below(polygons.len());
-        let outer = &polygons[outer];
+        let outer = dice.below(under.len());
+        let outer = &under[outer];
         let size = size.min(0.9 * (outer[2] - outer[0]));
-        polygons.push(within(dice, outer, size));
+        let text = within(dice, outer, size);
+        under.push(text.clone());
+        polygons.push(text);
     }
     let last = polygons.last().expect("text").clone();
     let corner = |dice: &mut Dice| within(dice, &last, DVec2::ZERO)[0];
@@ -163,6 +172,55 @@ fn shapes_of_a_stack_come_one_after_the_other() {
         assert!(wrong[0] <= allowed[0] && wrong[1] <= allowed[1], "{numbers:?}: {judged:?}");
         let most = if is_coarse { 40 } else { 2 };
         enough!(pairs[0].min(pairs[1]) > 2000, cut > most; "{numbers:?}: {judged:?}");
+    }
+}
+
+/// A label over a disc of many corners and over a square beside the disc, on other sides of a plane: one cut separates
+/// these.
+#[test]
+fn a_label_over_a_disc_of_many_corners_is_not_cut_at_each_of_them() {
+    let tolerance = 1e-3;
+    let rise = |polygon: Flat, height: f64| {
+        polygon.iter().map(|p| p.extend(height * tolerance)).collect::<Corners>()
+    };
+    for count in [100, 1000] {
+        let corner = |k: u32| DVec2::from_angle(f64::from(k) / f64::from(count) * TAU);
+        let disc = (0..count).map(|k| DVec2::splat(5.0) + 3.0 * corner(k)).collect();
+        let wall = [
+            rise(rectangle(dvec2(40.0, 40.0), DVec2::ONE), 0.0),
+            rise(disc, -0.3),
+            rise(rectangle(dvec2(8.5, 0.0), DVec2::splat(2.5)), 1.5),
+        ];
+        let options = BuildOptions::DEFAULT.with_tolerance(tolerance);
+        let options = options.with_heuristic(Heuristic::First);
+        let room = options.with_bounds(DVec3::splat(-50.0), DVec3::splat(50.0));
+        let tree = room.build(&wall).expect("a tree");
+        let mut overlay = Overlay::new(&tree);
+        let label = rise(rectangle(DVec2::ZERO, DVec2::splat(12.0)), 0.6);
+        overlay.replace(&tree, [label]).expect("on the grid");
+        assert!((2..=4).contains(&overlay.len()), "{count}: {}", overlay.len());
+        for sign in [1.0, -1.0] {
+            let order = overlay.order(&tree, Viewpoint::direction([0.1, 0.2, sign]));
+            let pieces: Vec<(usize, Vec<DVec2>)> = order
+                .expect("its own tree")
+                .into_iter()
+                .filter_map(|shape| shape.fragment())
+                .map(|f| (f.polygon(), f.vertices().map(DVec3::truncate).collect()))
+                .collect();
+            let place = |wanted: usize, point: DVec2| {
+                pieces
+                    .iter()
+                    .position(|(polygon, piece)| {
+                        *polygon == wanted && is_inside(piece, point, 1e-3)
+                    })
+                    .expect("covered")
+            };
+            for (polygon, point) in
+                [(1, dvec2(5.0, 5.0)), (1, dvec2(7.5, 4.0)), (2, dvec2(9.0, 2.0))]
+            {
+                assert!(place(polygon, point) < place(3, point), "{count} {sign}: {point}");
+            }
+        }
     }
 }
 
