@@ -100,7 +100,7 @@ impl PreparedPlane {
     }
 }
 
-/// Vertices of outlines are rounded: a side may turn the wrong way if it is shorter than this, in lattice units.
+/// Vertices of outlines are rounded. Sides shorter than this, in lattice units, may have any direction.
 const ROUNDED: f64 = 8.0;
 
 /// Whether some side of a convex outline has no point of another convex outline inside by more than a margin. From one
@@ -111,11 +111,10 @@ fn has_outside(outline: &[DVec2], other: &[DVec2], margin: f64) -> bool {
     let step = if same_turn { 1 } else { other.len() - 1 };
     let mut last: Option<(DVec2, usize)> = None;
     sides(outline).any(|[a, side]| {
-        if side == DVec2::ZERO {
+        if side.abs().max_element() < ROUNDED {
             return false;
         }
         let inside = |point: usize| side.perp_dot(other[point] - a);
-        let most = margin * side.length();
         // After a sharp turn, rounding could hide in which direction the way inside leads.
         let mut here = match last {
             Some((before, point)) if before.dot(side) > 0.0 => point,
@@ -131,7 +130,7 @@ fn has_outside(outline: &[DVec2], other: &[DVec2], margin: f64) -> bool {
             }
         }
         last = Some((side, here));
-        inside(here) <= most
+        inside(here) <= margin * side.length()
     })
 }
 
@@ -231,7 +230,8 @@ mod tests {
                 (0..a.len()).any(|i| {
                     let (from, to) = (a[i], a[(i + 1) % a.len()]);
                     let side = (to - from) * if area < 0.0 { -1.0 } else { 1.0 };
-                    from != to && b.iter().all(|&p| side.perp_dot(p - from) <= 0.0)
+                    let is_long = side.abs().max_element() >= ROUNDED;
+                    is_long && b.iter().all(|&p| side.perp_dot(p - from) <= 0.0)
                 })
             };
             for [a, b] in [[&a, &b], [&b, &a]] {
