@@ -167,9 +167,9 @@ use crate::viewpoint::Ray;
 /// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the bounding boxes of the overlay's pieces that the ray crosses; the first call computes the bounding boxes of the tree and of the pieces, in O(n) for n fragments and pieces |
 /// | [`welded_mesh`](Self::welded_mesh) | O(n + m log m) for n corners of the tree's polygons and m vertices of the overlay's pieces |
 ///
-/// A piece near a plane and along it goes where the polygons are on which it lies, of the overlay or of the tree. If their
-/// planes differ by rounding and a plane of the tree passes between them, the piece is cut at their borders: a label over
-/// n small squares of a flat wall in `f32` can become some n pieces. To find the polygons takes the time of a [region
+/// A piece near a plane and along it goes where the polygons are on which it lies: those of the overlay, the largest first,
+/// and beyond them those of the tree. If their planes differ by rounding and a plane of the tree passes between them, the
+/// piece is cut at their borders: a label over n small squares of a flat wall in `f32` can become some n pieces. To find the polygons takes the time of a [region
 /// query](BspTree::fragments_in) of the piece's bounding box at each such plane; the first query computes the bounding
 /// boxes of the tree, in O(n) for n fragments. If pieces near a plane go to different sides, each is compared with the
 /// larger polygons whose bounding boxes touch its own: O(k²) for k polygons over one another.

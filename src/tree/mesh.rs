@@ -94,7 +94,8 @@ pub struct MeshVertex<'m> {
     /// The index of the vertex's polygon, in input order.
     pub polygon: usize,
     /// Weights over the polygon's corners: up to three pairs of a corner's number and the corner's weight.
-    /// The weights sum to 1, up to rounding.
+    /// The weights sum to 1, up to rounding. If the tolerance moved corners of the polygon, they are for the place on the
+    /// moved polygon, not for the position.
     pub weights: &'m [(u32, f64)],
 }
 
@@ -189,7 +190,8 @@ impl Mesh {
         &self.parts.positions
     }
 
-    /// Returns the triangles of all fragments, with the orientation of their polygons.
+    /// Returns the triangles of all fragments, with the orientation of their polygons. (Triangles not much wider than the
+    /// [tolerance](BspTree#exactness), of polygons whose corners it moved, may be turned over.)
     pub fn triangles(&self) -> &Triangles {
         &self.triangles
     }

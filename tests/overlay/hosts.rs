@@ -54,6 +54,33 @@ fn square(x: f64, y: f64, size: f64, z: f64) -> [DVec3; 4] {
     [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]].map(|[a, b]| dvec3(x + a, y + b, z))
 }
 
+/// Text lies on a label on a plane of the tree, and beyond the label's border on a polygon of the tree behind that plane.
+#[test]
+fn text_on_a_label_goes_with_the_wall_beyond_it() {
+    let tolerance = 1e-3;
+    let options = BuildOptions::DEFAULT.with_tolerance(tolerance).with_heuristic(Heuristic::First);
+    let options = options.with_bounds(DVec3::splat(-50.0), DVec3::splat(50.0));
+    for side in [1.0, -1.0] {
+        let height = |height: f64| side * height * tolerance;
+        let wall = square(0.0, 0.0, 10.0, height(-1.4));
+        let tree = options.build([square(40.0, 40.0, 1.0, 0.0), wall]).expect("a tree");
+        let mut overlay = Overlay::new(&tree);
+        let label = square(10.0, 0.0, 20.0, height(0.5));
+        let text = square(8.0, 2.0, 4.0, height(-0.45));
+        overlay.replace(&tree, [label, text]).expect("on the grid");
+        for z in [1.0, -1.0] {
+            let order = overlay.order(&tree, Viewpoint::direction([0.1, 0.2, z]));
+            let pieces = order.expect("its own tree").into_iter().filter_map(|s| s.fragment());
+            let mut sides = [vec![], vec![]];
+            for piece in pieces.filter(|piece| piece.polygon() > 0) {
+                let middle = piece.vertices().map(|p| p.x).sum::<f64>() / 4.0;
+                sides[usize::from(middle > 10.0)].push(piece.polygon());
+            }
+            assert_eq!(sides, [vec![1, 3], vec![2, 3]], "{side} {z}");
+        }
+    }
+}
+
 /// Text lies across two labels, half a tolerance and 1.4 tolerances above or below a plane of the tree.
 #[test]
 fn text_across_two_labels_comes_after_both() {

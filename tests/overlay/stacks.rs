@@ -98,7 +98,12 @@ fn judge(seed: u64, numbers: Numbers, judged: &mut Judged) {
         let outer = dice.below(under.len());
         let outer = &under[outer];
         let size = size.min(0.9 * (outer[2] - outer[0]));
-        let text = within(dice, outer, size);
+        let mut text = within(dice, outer, size);
+        // Some text reaches beyond a border of what is under it.
+        if dice.below(3) == 0 {
+            let beyond = size * dvec2(dice.range(-0.8, 0.8), dice.range(-0.8, 0.8));
+            text = rectangle(if dice.below(2) > 0 { outer[0] } else { outer[2] } + beyond, size);
+        }
         under.push(text.clone());
         polygons.push(text);
     }
