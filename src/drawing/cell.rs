@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::lines::{HalfPlane, LineTable};
+use super::lines::{HalfPlane, LineTable, Rounded};
 use super::primitives::FEW_CORNERS;
 use super::quadtree::Tile;
 use crate::Error;
@@ -130,11 +130,11 @@ impl Cell {
         let mut near: SmallVec<[HalfPlane; 8]> = SmallVec::new();
         for &half in halves {
             watch.work(self.corners_work())?;
-            let signs = self.signs(lines, half);
-            if !signs.contains(&Ordering::Greater) {
+            let [inside, outside] = self.reaches(lines, half);
+            if !inside {
                 return Ok(None);
             }
-            if signs.contains(&Ordering::Less) {
+            if outside {
                 near.push(half);
             }
         }
@@ -157,6 +157,23 @@ impl Cell {
         Ok(Some(part))
     }
 
+    /// Whether some corner is inside a half-plane, and whether some corner is outside.
+    fn reaches(&self, lines: &LineTable<'_>, half: HalfPlane) -> [bool; 2] {
+        let line = lines.rounded(half);
+        let mut reaches = [false; 2];
+        for i in 0..self.sides.len() {
+            match self.sign(lines, half, &line, i) {
+                Ordering::Greater => reaches[0] = true,
+                Ordering::Less => reaches[1] = true,
+                Ordering::Equal => {}
+            }
+            if reaches == [true; 2] {
+                break;
+            }
+        }
+        reaches
+    }
+
     /// The cost of all corners, in pieces that a build examines. The cost is 0 for few corners, because the
     /// cost of the cell includes a few corners.
     fn corners_work(&self) -> usize {
@@ -176,22 +193,26 @@ impl Cell {
     }
 
     /// The position of each corner: inside a half-plane (`Greater`), on the half-plane's line (`Equal`) or
-    /// outside (`Less`). Floats decide if the line's value at the rounded corner is larger than the sum of
-    /// two bounds: the value's error, and the change of the value from the rounded to the exact corner. (The
-    /// change is at most the distance of these two corners times the length of the slope.)
+    /// outside (`Less`).
     pub(super) fn signs(&self, lines: &LineTable<'_>, half: HalfPlane) -> SmallVec<[Ordering; 8]> {
         let line = lines.rounded(half);
-        let sign = |i: usize, side: &Side| {
-            let Corner { at, radius } = side.start;
-            let value = line.at(at);
-            if value.abs() > line.error + line.slope * radius {
-                let is_in = (value > 0.0) != half.is_negative();
-                return if is_in { Ordering::Greater } else { Ordering::Less };
-            }
-            let before = self.sides[if i == 0 { self.sides.len() - 1 } else { i - 1 }];
-            lines.exact_side(half, [before.half, side.half])
-        };
-        self.sides.iter().enumerate().map(|(i, side)| sign(i, side)).collect()
+        (0..self.sides.len()).map(|i| self.sign(lines, half, &line, i)).collect()
+    }
+
+    /// The position of the corner where side `i` begins. Floats decide if the line's value at the rounded corner is
+    /// larger than the sum of two bounds: the value's error, and the change of the value from the rounded to the exact
+    /// corner. (The change is at most the distance of these two corners times the length of the slope.)
+    #[inline]
+    fn sign(&self, lines: &LineTable<'_>, half: HalfPlane, line: &Rounded, i: usize) -> Ordering {
+        let side = &self.sides[i];
+        let Corner { at, radius } = side.start;
+        let value = line.at(at);
+        if value.abs() > line.error + line.slope * radius {
+            let is_in = (value > 0.0) != half.is_negative();
+            return if is_in { Ordering::Greater } else { Ordering::Less };
+        }
+        let before = &self.sides[if i == 0 { self.sides.len() - 1 } else { i - 1 }];
+        lines.exact_side(half, [before.half, side.half])
     }
 
     /// The part of the cell whose corners have the sign `keep`, with a new side along the line.
