@@ -64,15 +64,12 @@ impl Faces {
         !has_outside(&a, &b, margin) && !has_outside(&b, &a, margin)
     }
 
-    /// Whether the first of two coplanar outlines lies in the second, which is convex, or beyond its sides by no more
-    /// than the tolerance.
+    /// Whether the first of two coplanar outlines lies in the second, or beyond its sides by no more than the tolerance.
+    /// Takes O(n) time for n corners.
     pub(crate) fn is_inside(&self, face: u32, outlines: [&Outline; 2]) -> bool {
-        let [inner, outer] = self.flat(face, outlines);
-        let margin = self.tolerance();
-        sides(&outer).all(|[a, side]| {
-            let most = margin * side.length();
-            inner.iter().all(|&p| side.perp_dot(p - a) >= -most)
-        })
+        let ([inner, outer], margin) = (self.flat(face, outlines), self.tolerance());
+        sides(&outer).any(|[_, side]| is_long(side))
+            && !extremes(&outer, &inner, -1.0).any(|outside| outside > margin)
     }
 
     /// Outlines without the coordinate along which a face's normal is longest.
@@ -103,34 +100,44 @@ impl PreparedPlane {
 /// Vertices of outlines are rounded. Sides shorter than this, in lattice units, may have any direction.
 const ROUNDED: f64 = 8.0;
 
-/// Whether some side of a convex outline has no point of another convex outline inside by more than a margin. From one
-/// side to the next, the point furthest inside moves on around the other outline (rotating calipers: Toussaint,
-/// “Solving geometric problems with the rotating calipers”, 1983).
+fn is_long(side: DVec2) -> bool {
+    side.abs().max_element() >= ROUNDED
+}
+
+/// Whether some side of a convex outline has no point of another convex outline inside by more than a margin.
 fn has_outside(outline: &[DVec2], other: &[DVec2], margin: f64) -> bool {
+    extremes(outline, other, 1.0).any(|inside| inside <= margin)
+}
+
+/// For each long side of a convex outline, how far another convex outline reaches inside (`sign` 1) or outside (-1). From
+/// one side to the next, the point that reaches furthest moves on around the other outline (rotating calipers: Toussaint,
+/// “Solving geometric problems with the rotating calipers”, 1983).
+fn extremes<'a>(
+    outline: &'a [DVec2],
+    other: &'a [DVec2],
+    sign: f64,
+) -> impl Iterator<Item = f64> + 'a {
     let same_turn = area(outline) * area(other) >= 0.0;
     let step = if same_turn { 1 } else { other.len() - 1 };
     let mut last: Option<(DVec2, usize)> = None;
-    sides(outline).any(|[a, side]| {
-        if side.abs().max_element() < ROUNDED {
-            return false;
-        }
-        let inside = |point: usize| side.perp_dot(other[point] - a);
-        // After a sharp turn, rounding could hide in which direction the way inside leads.
+    sides(outline).filter(|[_, side]| is_long(*side)).map(move |[a, side]| {
+        let reach = |point: usize| sign * side.perp_dot(other[point] - a);
+        // After a sharp turn, rounding could hide in which direction the way leads.
         let mut here = match last {
             Some((before, point)) if before.dot(side) > 0.0 => point,
-            _ => (0..other.len()).max_by(|&p, &q| inside(p).total_cmp(&inside(q))).unwrap_or(0),
+            _ => (0..other.len()).max_by(|&p, &q| reach(p).total_cmp(&reach(q))).unwrap_or(0),
         };
         let (mut next, slack) = (here, ROUNDED * side.length());
         for _ in 0..other.len() {
             next = (next + step) % other.len();
-            if inside(next) >= inside(here) {
+            if reach(next) >= reach(here) {
                 here = next;
-            } else if inside(next) < inside(here) - slack {
+            } else if reach(next) < reach(here) - slack {
                 break;
             }
         }
         last = Some((side, here));
-        inside(here) <= margin * side.length()
+        reach(here) / side.length()
     })
 }
 
@@ -230,17 +237,61 @@ mod tests {
                 (0..a.len()).any(|i| {
                     let (from, to) = (a[i], a[(i + 1) % a.len()]);
                     let side = (to - from) * if area < 0.0 { -1.0 } else { 1.0 };
-                    let is_long = side.abs().max_element() >= ROUNDED;
-                    is_long && b.iter().all(|&p| side.perp_dot(p - from) <= 0.0)
+                    is_long(side) && b.iter().all(|&p| side.perp_dot(p - from) <= 0.0)
+                })
+            };
+            let reaches_out = |a: &[DVec2], b: &[DVec2]| {
+                sides(a).any(|[from, side]| {
+                    is_long(side) && b.iter().any(|&p| side.perp_dot(p - from) < 0.0)
                 })
             };
             for [a, b] in [[&a, &b], [&b, &a]] {
                 let expected = is_outside(a, b);
                 assert_eq!(has_outside(a, b, 0.0), expected, "{round}: {a:?} {b:?}");
+                let outside = extremes(a, b, -1.0).any(|outside| outside > 0.0);
+                assert_eq!(outside, reaches_out(a, b), "{round}: {a:?} {b:?}");
                 found[usize::from(expected)] += 1;
             }
         }
         assert!(found.iter().all(|&count| count > 1000), "{found:?}");
+    }
+
+    /// Each corner is there up to three times, with differences of a unit, and coordinates are so large that rounding
+    /// exceeds these: no corner far inside is missed, and no side without corners inside.
+    #[test]
+    fn corners_that_rounding_separates_do_not_end_the_search() {
+        let mut random = crate::random::SplitMix64::new(9);
+        let mut found = [0; 2];
+        for round in 0..4000 {
+            let mut outline = || {
+                let middle = DVec2::new(random.range(-2.0, 2.0), random.range(-2.0, 2.0));
+                let mut angles: Vec<f64> = (0..12).map(|_| random.range(0.0, TAU)).collect();
+                angles.sort_by(f64::total_cmp);
+                let mut corners = Vec::new();
+                for angle in angles {
+                    let corner = (middle + DVec2::from_angle(angle)) * 50_f64.exp2();
+                    for _ in 0..=random.next() % 3 {
+                        let step = [(); 2].map(|()| (random.next() % 3) as f64 - 1.0);
+                        corners.push(corner.round() + DVec2::from_array(step));
+                    }
+                }
+                corners
+            };
+            let [a, b] = [outline(), outline()];
+            // The side with the fewest units inside.
+            let deepest = |[from, side]: [DVec2; 2]| {
+                let inside = b.iter().map(|&p| side.perp_dot(p - from)).fold(f64::MIN, f64::max);
+                inside / side.length()
+            };
+            let long = sides(&a).filter(|[_, side]| side.length() > 1000.0);
+            let least = long.map(deepest).fold(f64::MAX, f64::min);
+            let is_outside = has_outside(&a, &b, 0.0);
+            if least.abs() > 1000.0 {
+                assert_eq!(is_outside, least < 0.0, "{round}: {least}");
+                found[usize::from(is_outside)] += 1;
+            }
+        }
+        assert!(found.iter().all(|&count| count > 500), "{found:?}");
     }
 
     /// A corner of a triangle is there twice, with a difference that is smaller than a rounding. Octagons inside.
@@ -249,24 +300,29 @@ mod tests {
         let wall = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]].map(DVec3::from_array);
         let (faces, _) = Faces::new([wall], Some(0.0)).unwrap();
         let size = 42_f64.exp2();
-        let (tip, rest) = ([8.0 * size, 10.0 * size], [[-100.0, -50.0], [20.0, -50.0]]);
-        let twice = [tip, [tip[0], tip[1] - (-7_f64).exp2()]];
-        let outline = |tips: &[[f64; 2]]| -> Outline {
-            let rest = rest.iter().map(|corner| corner.map(|c| c * size));
-            tips.iter().copied().chain(rest).map(|[x, y]| [x, y, 0.0]).collect()
+        let triangle = [[8.0, 10.0], [-100.0, -50.0], [20.0, -50.0]].map(|p| p.map(|c| c * size));
+        let outline = |corners: &[[f64; 2]]| -> Outline {
+            corners.iter().map(|&[x, y]| [x, y, 0.0]).collect()
         };
-        let [once, twice] = [&[tip][..], &twice].map(outline);
+        let once = outline(&triangle);
         let mut count = 0;
-        for (x, y) in (0..5).flat_map(|x| (0..5).map(move |y| (x, y))) {
-            let middle = DVec2::new(10.0 * f64::from(x) - 140.0, 15.0 * f64::from(y) - 60.0);
+        for place in 0..25 * 27 {
+            let (corner, step) = (place % 3, place / 3 % 9);
+            let (x, y) = (f64::from(place / 27 % 5), f64::from(place / 135));
+            let step = [step % 3, step / 3].map(|c| f64::from(c - 1) * (-7_f64).exp2());
+            let mut twice = triangle.to_vec();
+            let double = [0, 1].map(|axis| twice[corner as usize][axis] + step[axis]);
+            twice.insert(corner as usize + 1, double);
+            let twice = outline(&twice);
+            let middle = DVec2::new(10.0 * x - 140.0, 15.0 * y - 60.0);
             let corner = |k: f64| middle + DVec2::from_angle((k + 0.5) * TAU / 8.0) * 60.0;
             let octagon: Outline =
                 (0..8).map(|k| (corner(f64::from(k)) * size).extend(0.0).to_array()).collect();
             let expected = faces.overlap(0, [&octagon, &once]);
-            assert_eq!(faces.overlap(0, [&octagon, &twice]), expected, "{x}, {y}");
+            assert_eq!(faces.overlap(0, [&octagon, &twice]), expected, "{place}");
             count += usize::from(expected);
         }
-        assert!(count > 20, "{count}");
+        assert!(count > 20 * 27, "{count}");
     }
 
     /// Small cards far from the origin of the grid.

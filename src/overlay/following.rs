@@ -279,7 +279,8 @@ impl Parting<'_, '_> {
         under: &[u32],
     ) -> Result<Option<Unplaced>, Error> {
         let on_side = |side: Side| {
-            let is_other = |host: &Host| host.is_cut && host.side != side;
+            let is_other =
+                |host: &Host| host.is_cut && host.side != side && host.side != Side::Coplanar;
             let same = under.iter().filter(|&&host| !is_other(hosts[host as usize]));
             same.copied().collect::<Vec<_>>()
         };

@@ -2,7 +2,7 @@
 //! wall comes after that polygon, even if it also lies on the plane of a smaller one.
 
 use super::numbers::Numbers;
-use binspace::glam::{DQuat, EulerRot};
+use binspace::glam::{DQuat, DVec2, EulerRot, dvec2};
 use binspace::overlay::{Overlay, Shape, Shapes};
 use std::f64::consts::TAU;
 use testkit::prelude::*;
@@ -78,6 +78,80 @@ fn text_on_a_label_goes_with_the_wall_beyond_it() {
             }
             assert_eq!(sides, [vec![1, 3], vec![2, 3]], "{side} {z}");
         }
+    }
+}
+
+/// A plane of the tree has cut the smaller label, and a part of it counts as on the plane. The larger label is in front.
+/// Text on both follows each where it lies.
+#[test]
+fn text_on_a_part_of_a_label_on_the_plane_that_cut_the_label() {
+    let wall = [
+        [-0.060139645_f32, -0.061698545, 0.013010305],
+        [-0.06139083, -0.061812498, 0.012895642],
+        [-0.062556334, -0.0620316, 0.012465314],
+        [-0.06354972, -0.062339608, 0.011751238],
+        [-0.06429732, -0.06271367, 0.010806373],
+        [-0.064743675, -0.06312605, 0.009700797],
+        [-0.06485569, -0.06354616, 0.0085165035],
+        [-0.064625055, -0.06394284, 0.007341326],
+        [-0.064068876, -0.06428669, 0.006262424],
+        [-0.0632284, -0.06455217, 0.005359813],
+        [-0.06216596, -0.064719625, 0.0047004363],
+        [-0.06096036, -0.06477662, 0.0043331967],
+        [-0.059701003, -0.06471893, 0.0042853304],
+        [-0.0584813, -0.06455084, 0.004560388],
+        [-0.057391703, -0.06428481, 0.0051379693],
+        [-0.056513026, -0.06394057, 0.005975238],
+        [-0.05591044, -0.06354365, 0.007010097],
+        [-0.055628628, -0.06312349, 0.008165797],
+        [-0.055688497, -0.062711254, 0.0093566235],
+        [-0.0560856, -0.06233751, 0.010494259],
+        [-0.056790497, -0.062029984, 0.01149433],
+        [-0.0577509, -0.061811477, 0.012282667],
+        [-0.05889558, -0.0616982, 0.012800801],
+    ];
+    let [larger, label, text] = [
+        [
+            [0.02606721223976, -0.0265739026939, 0.09902469224854],
+            [-0.1259505475419, -0.01770451558731, 0.15015017024944],
+            [-0.14858046497673, -0.04111689058303, 0.08692345703401],
+            [0.00343729480493, -0.04998627768962, 0.03579797903311],
+        ],
+        [
+            [-0.00341854354419, -0.04339333504538, 0.05584101594629],
+            [-0.08591374783296, -0.03858020069631, 0.08358518714117],
+            [-0.1177623877138, -0.0715300469404, -0.00539811674612],
+            [-0.03526718342503, -0.07634318128947, -0.033142287941],
+        ],
+        [
+            [-0.0382325946594, -0.04471143007539, 0.05795661862124],
+            [-0.04248563476422, -0.04446328894291, 0.05938696931598],
+            [-0.0463113000924, -0.0484212314113, 0.04869827611772],
+            [-0.04205825998757, -0.04866937254378, 0.04726792542298],
+        ],
+    ];
+    let (low, high) = (dvec3(-0.2, -0.1, -0.1), dvec3(0.1, 0.0, 0.2));
+    let tree = BuildOptions::DEFAULT.with_bounds(low, high).build([wall]).expect("a tree");
+    let mut overlay = Overlay::new(&tree);
+    overlay.replace(&tree, [larger, label, text]).expect("on the grid");
+    let corners = text.map(DVec3::from);
+    let point = (corners[0] + corners[1]) * 0.05 + (corners[2] + corners[3]) * 0.45;
+    let [along, other] = [corners[1] - corners[0], corners[3] - corners[0]];
+    let flat = |p: DVec3| dvec2((p - point).dot(along), (p - point).dot(other));
+    for direction in [1.0, -1.0].map(|sign| along.cross(other) * sign) {
+        let order = overlay.order(&tree, Viewpoint::direction(direction)).expect("its own tree");
+        let pieces = order.into_iter().filter_map(|shape| shape.fragment());
+        let over: Vec<usize> = pieces
+            .filter(|piece| {
+                let corners: Vec<DVec2> = piece.vertices().map(flat).collect();
+                let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+                let turns: Vec<f64> = sides.map(|(a, b)| a.perp_dot(*b)).collect();
+                turns.iter().all(|turn| *turn > 0.0) || turns.iter().all(|turn| *turn < 0.0)
+            })
+            .map(|piece| piece.polygon())
+            .filter(|polygon| *polygon > 0)
+            .collect();
+        assert_eq!(over, [2, 3]);
     }
 }
 

@@ -168,7 +168,7 @@ fn judge(seed: u64, numbers: Numbers, judged: &mut Judged) {
 fn shapes_of_a_stack_come_one_after_the_other() {
     for numbers in [Numbers::Single, Numbers::Double, Numbers::Decimal(4), Numbers::Decimal(6)] {
         let mut judged = Judged::default();
-        for seed in seeds(150) {
+        for seed in seeds(200) {
             judge(seed, numbers, &mut judged);
         }
         let Judged { pairs, cut, wrong, .. } = judged;
