@@ -4,7 +4,7 @@
 use super::{CellRange, Extent, Partition, SplitPlane};
 use crate::error::{Error, Kind};
 use crate::exact::faces::CellBox;
-use crate::exact::{Faces, LATTICE_LIMIT, MAX_NAMES};
+use crate::exact::{Faces, MAX_NAMES};
 use crate::faces::{Precision, Tolerance, empty_faces};
 use crate::input::Point;
 use crate::memory::{push, reserve};
@@ -34,6 +34,7 @@ impl Partition {
         whole.merge(room);
         let bounds = bounds(&whole);
         let Faces { lattice, tolerance, .. } = empty_faces(bounds, tolerance, precision)?;
+        let [low, high] = bounds.map(|corner| lattice.snap(corner));
         let mut points: Vec<[f64; 3]> = Vec::new();
         for (number, sample) in samples.into_iter().enumerate() {
             if number == MAX_NAMES {
@@ -42,13 +43,14 @@ impl Partition {
                 return Err(Kind::Argument(problem).error());
             }
             let point = sample.to_dvec3();
-            // Samples only choose planes, so NaN and infinite samples are left out.
+            // Samples only choose planes, so NaN and infinite samples are left out. Samples outside the scene count as on
+            // its border: a plane there would leave a part without room for further planes.
             if point.is_finite() {
-                let limit = |c: f64| c.clamp(-LATTICE_LIMIT, LATTICE_LIMIT);
-                push(&mut points, lattice.snap(point).map(limit))?;
+                let point = lattice.snap(point);
+                push(&mut points, [0, 1, 2].map(|axis| point[axis].clamp(low[axis], high[axis])))?;
             }
         }
-        let planes = planes(&mut points, bounds.map(|corner| lattice.snap(corner)), cells.max(1))?;
+        let planes = planes(&mut points, [low, high], cells.max(1))?;
         Ok(Self { lattice, tolerance, planes })
     }
 }
