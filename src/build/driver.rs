@@ -288,8 +288,8 @@ impl BuildOptions {
     /// The cells are the leaves of a k-d tree. Each plane goes through one of the samples in the box that the
     /// plane divides, and is perpendicular to the axis along which these samples extend furthest. If a box
     /// has no two different samples, the plane halves the longest side of the box. The cells do not depend on
-    /// the order of the samples. Some cells may be empty. 0 `cells` count as 1. At most
-    /// [`Partition::MAX_CELLS`] cells and 2²⁸ samples are allowed.
+    /// the order of the samples. Samples outside the extent and the bounds count as on their border. Some cells may
+    /// be empty. 0 `cells` count as 1. At most [`Partition::MAX_CELLS`] cells and 2²⁸ samples are allowed.
     ///
     /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, the extent
     /// defines the [grid](BspTree::grid) to which the corners of polygons are rounded. The tolerance of these
