@@ -106,7 +106,7 @@ pub(super) struct Passes {
 /// Tiles are not halved if at most this many pieces reach into them without covering them. Too small: more
 /// tiles, and more parts of segments (8: twice the time, for crossing triangles five times). Too large: more
 /// segments are compared with more pieces (128: up to a sixth less time).
-const FEW: usize = 64;
+const FEW_CANDIDATES: usize = 64;
 
 /// The passes of segments and points behind candidates and, unless `wants_behind_only`, in front of
 /// candidates. Counts as one phase of the progress.
@@ -119,7 +119,7 @@ pub(super) fn passes<'p>(
     let primitives = candidates.primitives;
     type Part<'p> = (TileList<'p>, Passing<'p>);
     let halves = |(list, passing): &Part<'p>| {
-        if passing.is_empty() || list.open() <= FEW || list.is_small(TINIEST) {
+        if passing.is_empty() || list.open() <= FEW_CANDIDATES || list.is_small(TINIEST) {
             return Ok(None);
         }
         watch.work((passing.near_segments.len() + passing.near_points.len()) * NARROWED)?;

@@ -204,8 +204,7 @@ impl PreparedPlane {
         cut: Option<&[Vertex]>,
         inside: Side,
     ) -> bool {
-        let (low, high) = self.extent_of(faces, face, cut);
-        (if inside == Side::Front { -low } else { high }) > self.band + self.bound
+        self.is_left_by(self.extent_of(faces, face, cut), inside)
     }
 
     /// Whether some part of a piece with these rounded vertices may be within twice the tolerance of the plane.
@@ -217,7 +216,13 @@ impl PreparedPlane {
     /// Whether these rounded vertices are nowhere further inside than the tolerance.
     pub(crate) fn has_beyond(&self, inside: Side, vertices: &[[f64; 3]]) -> bool {
         let (low, high) = self.extent(vertices.iter().copied());
-        (if inside == Side::Front { high } else { -low }) <= self.band + self.bound
+        // Seen from the other side, the inside is beyond the plane.
+        !self.is_left_by((-high, -low), inside)
+    }
+
+    /// Whether vertices that extend from `low` to `high` reach beyond the side `inside` by more than the tolerance.
+    fn is_left_by(&self, (low, high): (f64, f64), inside: Side) -> bool {
+        (if inside == Side::Front { -low } else { high }) > self.slack()
     }
 
     /// A bound on the rounded distance of points within twice the tolerance.

@@ -97,7 +97,8 @@ impl PreparedPlane {
     }
 }
 
-/// Vertices of outlines are rounded. Sides shorter than this, in lattice units, may have any direction.
+/// Vertices of outlines are rounded, by less than a lattice unit in each coordinate. The direction of a side shorter than
+/// this, in lattice units, does not tell what is beyond it.
 const ROUNDED: f64 = 8.0;
 
 fn is_long(side: DVec2) -> bool {

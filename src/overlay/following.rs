@@ -189,7 +189,7 @@ fn of_overlay<'p>(
 
 /// The most hosts that are taken one by one, the largest first. Too small: hosts that overlap one another may decide in
 /// another order. Too large: time, because each is compared with what is left of the piece.
-const FEW: usize = 8;
+const FEW_HOSTS: usize = 8;
 
 /// Parts of a piece that are not placed yet, each with the numbers of hosts that it may overlap.
 type Unplaced = SmallVec<[(Piece, Vec<u32>); 4]>;
@@ -245,7 +245,7 @@ impl Parting<'_, '_> {
             let next = under.partition_point(|&host| (host as usize) < leaders);
             let equal = if next == 0 { &under[..] } else { &under[..next] };
             let mut parts = None;
-            if equal.len() > FEW {
+            if equal.len() > FEW_HOSTS {
                 parts = self.halves(&piece, hosts, equal)?;
             }
             if parts.is_none() {

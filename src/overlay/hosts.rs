@@ -113,7 +113,7 @@ impl Borders {
 
 /// The most fragments on a plane that are compared with a piece before its hosts are sought. Too small: hosts are sought
 /// without need. Too large: time.
-const FEW: usize = 8;
+const FEW_OWN: usize = 8;
 
 /// A piece whose hosts are sought.
 pub(super) struct Sought<'a> {
@@ -180,7 +180,7 @@ impl Beside<'_> {
     /// larger polygon that is coplanar with it and overlaps it left the plane, the tree would usually have that
     /// polygon's plane instead.
     fn around(&self, faces: &Faces, outline: &Outline) -> Option<u32> {
-        self.node.own.clone().take(FEW).find(|&number| {
+        self.node.own.clone().take(FEW_OWN).find(|&number| {
             let fragment = self.ground.fragment(faces, number);
             PlaneId::face(fragment.face()) == self.plane.id()
                 && faces.is_inside(fragment.face(), [outline, &vertices(fragment)])
