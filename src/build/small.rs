@@ -1,6 +1,6 @@
 //! Builds the subtree of a small set from a table of the sides of all pieces at all planes.
 
-use super::choose::{ChooseContext, CutBy, Mask, Part, Set, Sides, Table};
+use super::choose::{ChooseContext, Chosen, Mask, Set, Sides, Table};
 use super::piece::{Piece, compact};
 use super::subtree::{Builder, CUT, Shared};
 use crate::error::Error;
@@ -10,7 +10,7 @@ use crate::tree::parts::{RawChild, RawNode};
 /// A part of the set that is still to be divided.
 #[derive(Debug)]
 struct Pending {
-    part: Part,
+    part: Mask,
     /// The number of nodes above the part.
     depth: usize,
     /// The length of the arena that the part needs.
@@ -27,15 +27,21 @@ pub(super) struct SmallSet {
     pending: Vec<Pending>,
     /// The cut pieces of pending parts: the place in the table, the part of the piece behind the plane, and the
     /// planes that cut the whole piece.
-    cut: Vec<(usize, Piece, CutBy)>,
+    cut: Vec<(usize, Piece, Mask)>,
 }
 
 impl SmallSet {
     /// The best plane of a set, of which a table is filled for this purpose.
-    pub(super) fn plane(&mut self, rules: &ChooseContext<'_>, set: &Set<'_>) -> PlaneId {
-        let mut part = self.table.fill(set, rules.tuning);
-        let row = self.table.best(&mut part, rules.tuning);
-        self.table.plane(row).id()
+    pub(super) fn plane(
+        &mut self,
+        rules: &ChooseContext<'_>,
+        set: &Set<'_>,
+    ) -> Result<PlaneId, Error> {
+        let part = self.table.fill(set);
+        Ok(match self.table.choose(rules, set, &part)? {
+            Chosen::Row(row) => self.table.plane(row).id(),
+            Chosen::Axis(plane, _) => plane.id(),
+        })
     }
 }
 
@@ -52,39 +58,38 @@ impl Builder {
         let work = set.len() * set.len() / 8;
         shared.rules.watch.work(work)?;
         let base = self.arena.len();
-        let mut next = Some((self.small.table.fill(&set, shared.rules.tuning), depth));
+        let mut next = Some((self.small.table.fill(&set), depth));
         self.pieces.truncate(start);
         self.small.pending.clear();
         self.small.cut.clear();
         loop {
-            let (mut part, depth) = match next {
+            let (part, depth) = match next {
                 Some(next) => next,
                 None => match self.resume(shared) {
                     Some(resumed) => resumed,
                     None => return Ok(()),
                 },
             };
-            let count = part.pieces.count();
+            let count = part.count();
             shared.rules.watch.work(count * count / 64)?;
             if self.arena.len() > self.compact_at {
                 self.compact_small(shared, base, &part)?;
             }
-            let row = self.small.table.best(&mut part, shared.rules.tuning);
-            let Sides { front, back, .. } = self.small.table.sides(row, &part);
-            if front.is_empty() || back.is_empty() {
-                let (rest, layers) = self.peel(shared, &part, depth)?;
-                if layers > 0 {
-                    next = (rest.pieces.count() > 1).then_some((rest, depth + layers));
-                    continue;
-                }
-            }
             let set = shared.bare_set(&self.arena);
             let table = &mut self.small.table;
-            let is_cut = !(front & back).is_empty();
-            let gap = if is_cut { table.gap(&shared.rules, &set, &part)? } else { None };
-            let (plane, sides) = match gap {
-                Some(gap) => gap,
-                None => {
+            let (plane, sides) = match table.choose(&shared.rules, &set, &part)? {
+                Chosen::Axis(plane, sides) => (plane, sides),
+                Chosen::Row(row) => {
+                    let Sides { front, back, .. } = table.sides(row, &part);
+                    if front.is_empty() || back.is_empty() {
+                        let (rest, layers) = self.peel(shared, &part, depth)?;
+                        if layers > 0 {
+                            next = (rest.count() > 1).then_some((rest, depth + layers));
+                            continue;
+                        }
+                    }
+                    let set = shared.bare_set(&self.arena);
+                    let table = &mut self.small.table;
                     let row = table.settled(&shared.rules, &set, row, &part)?;
                     (*table.plane(row), table.sides(row, &part))
                 }
@@ -96,7 +101,7 @@ impl Builder {
     }
 
     /// Takes the next part from the stack, and puts the pieces that were cut to make the part into the table.
-    fn resume(&mut self, shared: &Shared<'_>) -> Option<(Part, usize)> {
+    fn resume(&mut self, shared: &Shared<'_>) -> Option<(Mask, usize)> {
         let SmallSet { table, pending, cut } = &mut self.small;
         let Pending { part, depth, arena, cut: first } = pending.pop()?;
         self.arena.truncate(arena);
@@ -113,14 +118,14 @@ impl Builder {
         &mut self,
         shared: &Shared<'_>,
         base: usize,
-        part: &Part,
+        part: &Mask,
     ) -> Result<(), Error> {
         let SmallSet { table, pending, cut } = &mut self.small;
         // Each place in the table is used by one part at most: a pending part whose piece was cut has it in the list.
-        let (mut used, mut end) = (part.pieces, cut.len());
+        let (mut used, mut end) = (*part, cut.len());
         for pending in pending.iter().rev() {
             let is_cut: Mask = cut[pending.cut..end].iter().map(|&(place, ..)| place).collect();
-            used = used | pending.part.pieces & !is_cut;
+            used = used | pending.part & !is_cut;
             end = pending.cut;
         }
         let whole = table.pieces.iter_mut().enumerate();
@@ -136,17 +141,17 @@ impl Builder {
     fn peel(
         &mut self,
         shared: &Shared<'_>,
-        part: &Part,
+        part: &Mask,
         depth: usize,
-    ) -> Result<(Part, usize), Error> {
+    ) -> Result<(Mask, usize), Error> {
         let (mut rest, mut layers) = (*part, 0);
-        for row in part.pieces.iter() {
-            if rest.pieces.count() < 2 {
+        for row in part.iter() {
+            if rest.count() < 2 {
                 break;
             }
             let table = &mut self.small.table;
             let Sides { front, back, .. } = table.sides(row, &rest);
-            if !rest.pieces.contains(row) || !front.is_empty() && !back.is_empty() {
+            if !rest.contains(row) || !front.is_empty() && !back.is_empty() {
                 continue;
             }
             let set = shared.bare_set(&self.arena);
@@ -155,7 +160,7 @@ impl Builder {
             }
             let (plane, sides) = (*table.plane(row), table.sides(row, &rest));
             self.divide_small(shared, (&plane, sides), &rest, depth + layers)?;
-            rest = rest.of(front | back);
+            rest = front | back;
             layers += 1;
         }
         Ok((rest, layers))
@@ -167,9 +172,9 @@ impl Builder {
         &mut self,
         shared: &Shared<'_>,
         (plane, Sides { front, back, on }): (&PreparedPlane, Sides),
-        part: &Part,
+        part: &Mask,
         depth: usize,
-    ) -> Result<(Option<Part>, Option<Pending>), Error> {
+    ) -> Result<(Option<Mask>, Option<Pending>), Error> {
         let depth = depth + 1;
         shared.budget.check_depth(depth)?;
         let first = self.small.cut.len();
@@ -212,7 +217,7 @@ impl Builder {
         }
         self.output.push_node(node)?;
         let SmallSet { table, cut, .. } = &mut self.small;
-        let front = (node.front == RawChild::Node).then(|| part.of(front));
+        let front = (node.front == RawChild::Node).then(|| front);
         if let Some(part) = &front {
             let set = shared.bare_set(&self.arena);
             for &(place, _, before) in &cut[first..] {
@@ -221,8 +226,8 @@ impl Builder {
             }
         }
         let back = (node.back == RawChild::Node).then(|| {
-            let (part, arena) = (part.of(back), self.arena.len());
-            Pending { part, depth, arena, cut: first }
+            let arena = self.arena.len();
+            Pending { part: back, depth, arena, cut: first }
         });
         if back.is_none() {
             cut.truncate(first);

@@ -170,7 +170,7 @@ impl Builder {
                 return self.build_small(shared, start, pending.depth);
             }
             // The caller's function is asked again at each set.
-            Choice::Table => small.plane(&shared.rules, &set),
+            Choice::Table => small.plane(&shared.rules, &set)?,
             Choice::Peel(peeled) => return self.emit_peeled(shared, start, pending.depth, &peeled),
         };
         settle(&shared.rules, &set, division, plane)?;

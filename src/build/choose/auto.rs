@@ -36,7 +36,7 @@ impl Auto {
         set: &Set<'_>,
         division: &mut Division,
     ) -> Result<Choice, Error> {
-        let ChooseContext { tuning, watch, .. } = *rules;
+        let tuning = rules.tuning;
         if let Some(frames) = &tuning.frames
             && set.len() <= tuning.small
             && let Some(plane) = find_own(set, tuning, frames, division)
@@ -52,11 +52,7 @@ impl Auto {
         {
             return Ok(Choice::Split(plane));
         }
-        let free = if set.len() < tuning.clean_below {
-            self.free.clean(set, tuning)
-        } else {
-            self.free.best(set, watch)?
-        };
+        let free = self.free.find(set, rules)?;
         if let Some(free) = free
             && !free.cost.cuts
         {

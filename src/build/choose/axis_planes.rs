@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
+use super::ChooseContext;
 use super::cost::{Cost, Counts, PricedPlane};
 use super::set::Set;
 use super::tuning::Tuning;
@@ -17,7 +18,7 @@ use crate::progress::{PIECES_AT_ONCE, SWEEP, Watch};
 const PER_BIN: usize = 4;
 /// The fewest bins. Too small: small sets are cut more often. Too large: comparing bins takes longer than
 /// counting pieces.
-const FEWEST_BINS: usize = 64;
+const FEWEST_BINS: usize = 32;
 /// The most bins. Too small: large sets are cut more often. Too large: bins no longer fit the processor's
 /// first cache.
 const MOST_BINS: usize = 256;
@@ -31,6 +32,19 @@ pub(super) struct FreePlanes {
 }
 
 impl FreePlanes {
+    /// Searches for an axis plane of low cost; in small sets, for one that cuts nothing.
+    pub(super) fn find(
+        &mut self,
+        set: &Set<'_>,
+        rules: &ChooseContext<'_>,
+    ) -> Result<Option<PricedPlane>, Error> {
+        if set.len() < rules.tuning.clean_below {
+            Ok(self.clean(set, rules.tuning))
+        } else {
+            self.best(set, rules.watch)
+        }
+    }
+
     /// Searches for an axis plane of low cost that has fewer pieces on each side than the set.
     ///
     /// Counts the bins in which pieces begin and end (binned sweep: Wald, “On fast construction of SAH-based

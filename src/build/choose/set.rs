@@ -163,12 +163,6 @@ impl PackedPieces {
         is_near
     }
 
-    /// The plane across an axis at a coordinate, in the coordinates of the packed pieces.
-    pub(super) fn axis_plane(&self, axis: usize, at: f64) -> PackedPlane {
-        let normal = std::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 });
-        PackedPlane { normal, offset: (at - self.middle[axis]) as f32 }
-    }
-
     /// Compares the pieces of some groups with a plane. Bits of empty lanes mean nothing.
     #[inline]
     pub(super) fn for_each_reach(

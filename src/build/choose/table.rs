@@ -8,17 +8,14 @@ use std::array::from_fn;
 use std::mem::take;
 use std::ops::{BitAnd, BitOr, Not, Range};
 
-use smallvec::SmallVec;
-
 use super::ChooseContext;
 use super::axis_planes::FreePlanes;
 use super::coplanar::{follow_rivals, larger};
-use super::cost::{Cost, Counts, work};
+use super::cost::{Cost, Counts, PricedPlane, work};
 use super::peel::arrange;
-use super::set::{LANES, PackedBox, PackedPieces, PackedPlane, Reach, Set};
+use super::set::{LANES, PackedBox, PackedPieces, Reach, Set};
 use super::tuning::Tuning;
 use crate::Error;
-use crate::bits::bits;
 use crate::build::piece::Piece;
 use crate::exact::{PlaneId, PreparedPlane, Side};
 
@@ -27,9 +24,6 @@ const WORDS: usize = 4;
 
 /// The most pieces of a table.
 const MOST_PIECES: usize = 64 * WORDS;
-
-/// The most axis planes of a table, along each axis: a part has a bit for each, of 32.
-const MOST_AXIS_PLANES: usize = 10;
 
 /// The most corners of all pieces of a table. Too large: a long wait for a cancelled build to end. Too small: sets
 /// of polygons with many corners are divided with less care.
@@ -162,26 +156,27 @@ impl Row {
         (Counts { front: front - splits, back: back - splits, splits }, cut_by)
     }
 
+    /// Whether the plane cuts a piece.
+    #[inline]
+    fn cuts_some<const N: usize>(&self, mask: &Mask, first: usize) -> bool {
+        let cut = |word: usize| self.front.0[word] & self.back.0[word] & mask.0[word];
+        (first..first + N).fold(0, |cuts, word| cuts | cut(word)) != 0
+    }
+
+    /// The difference between the numbers of pieces on the two sides of a plane that cuts nothing.
+    #[inline]
+    fn imbalance<const N: usize>(&self, mask: &Mask, first: usize) -> u32 {
+        let count = |side: &Mask, word: usize| (side.0[word] & mask.0[word]).count_ones();
+        let [front, back] =
+            [&self.front, &self.back].map(|side| (first..first + N).map(|word| count(side, word)).sum::<u32>());
+        front.abs_diff(back)
+    }
+
     /// The number of pieces that the plane cuts.
     #[inline]
     fn cuts<const N: usize>(&self, mask: &Mask, first: usize) -> u32 {
         let cut = |word: usize| self.front.0[word] & self.back.0[word] & mask.0[word];
         (first..first + N).map(|word| cut(word).count_ones()).sum()
-    }
-}
-
-/// A part of a set: some pieces of the table, and the axis planes that may divide them.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::build) struct Part {
-    pub(in crate::build) pieces: Mask,
-    /// A bit for each axis plane.
-    axes: u32,
-}
-
-impl Part {
-    /// Some pieces of the part, with the same axis planes.
-    pub(in crate::build) fn of(&self, pieces: Mask) -> Self {
-        Self { pieces, ..*self }
     }
 }
 
@@ -193,17 +188,25 @@ pub(in crate::build) struct Sides {
     pub(in crate::build) on: Mask,
 }
 
-/// The planes that cut a piece before it was cut.
+impl Sides {
+    /// The pieces that the plane cuts.
+    pub(in crate::build) fn cuts(&self) -> Mask {
+        self.front & self.back
+    }
+}
+
+/// The plane that divides a part.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::build) struct CutBy {
-    own: Mask,
-    axes: u32,
+pub(in crate::build) enum Chosen {
+    /// The plane of a row.
+    Row(usize),
+    Axis(PreparedPlane, Sides),
 }
 
 /// A row whose plane may divide a part.
 #[derive(Clone, Copy, Debug)]
 struct Priced {
-    cost: Cost,
+    cost: f64,
     /// The number of pieces that the plane cuts.
     cuts: u32,
     /// The number of planes that cut the plane's own piece.
@@ -215,7 +218,7 @@ struct Priced {
 #[derive(Debug, Default)]
 pub(in crate::build) struct Table {
     pub(in crate::build) pieces: Vec<Piece>,
-    /// The planes of the pieces, in the order of the pieces, and then the axis planes.
+    /// The planes of the pieces, in the order of the pieces.
     rows: Vec<Row>,
     planes: Vec<PreparedPlane>,
     packed: PackedPieces,
@@ -227,8 +230,6 @@ pub(in crate::build) struct Table {
     /// The pieces of a part.
     gathered: Vec<Piece>,
     free: FreePlanes,
-    /// The starts and the ends of the pieces along an axis.
-    ends: [Vec<f64>; 2],
     /// The pieces on a plane, and those beside it.
     on: Vec<u32>,
     beside: Vec<u32>,
@@ -242,7 +243,7 @@ impl Table {
     }
 
     /// Fills the table with a set, and returns the whole set.
-    pub(in crate::build) fn fill(&mut self, set: &Set<'_>, tuning: &Tuning) -> Part {
+    pub(in crate::build) fn fill(&mut self, set: &Set<'_>) -> Mask {
         let n = set.len();
         let mut pieces = take(&mut self.pieces);
         pieces.clear();
@@ -259,23 +260,20 @@ impl Table {
         self.rows.clear();
         self.planes.clear();
         for piece in 0..n {
-            let plane = self.packed.plane(set, piece);
-            self.add_row(set, set.own_plane(piece), &plane, piece);
+            self.add_row(set, piece);
         }
         for row in 0..n {
             for piece in (self.rows[row].front & self.rows[row].back).iter() {
                 self.rows[piece].cut_by.set(row, true);
             }
         }
-        for axis in 0..3 {
-            self.add_axis_planes(set, axis, tuning.axis_planes.min(MOST_AXIS_PLANES));
-        }
         self.pieces = pieces;
-        Part { pieces: Mask::first(n), axes: ((1_u64 << (self.rows.len() - n)) - 1) as u32 }
+        Mask::first(n)
     }
 
-    /// Classifies all pieces at a plane. `own` is the piece of the plane, if any.
-    fn add_row(&mut self, set: &Set<'_>, plane: PlaneId, packed: &PackedPlane, own: usize) {
+    /// Classifies all pieces at the plane of a piece.
+    fn add_row(&mut self, set: &Set<'_>, own: usize) {
+        let packed = &self.packed.plane(set, own);
         let mut row = Row::default();
         let groups = self.packed.groups();
         for (first, around) in (0..).step_by(BLOCK).zip(&self.boxes) {
@@ -296,10 +294,8 @@ impl Table {
             }
         }
         let mut all = Mask::first(set.len());
-        if own < set.len() {
-            all.set(own, false);
-        }
-        let prepared = set.prepare(plane);
+        all.set(own, false);
+        let prepared = set.prepare(set.own_plane(own));
         row.front = row.front & all;
         row.back = row.back & all;
         row.near = row.near & all;
@@ -312,164 +308,162 @@ impl Table {
         self.planes.push(prepared);
     }
 
-    /// Adds some planes across an axis, spread over the set: of the places where pieces begin, those that
-    /// cut the fewest pieces.
-    fn add_axis_planes(&mut self, set: &Set<'_>, axis: usize, count: usize) {
-        let (n, [starts, ends]) = (set.len(), &mut self.ends);
-        if n < 3 {
-            return;
-        }
-        for (list, side) in [(&mut *starts, 0), (&mut *ends, 1)] {
-            list.clear();
-            list.extend(set.pieces.iter().map(|piece| [piece.min, piece.max][side][axis]));
-            list.sort_unstable_by(f64::total_cmp);
-        }
-        let mut found: SmallVec<[f64; MOST_AXIS_PLANES]> = SmallVec::new();
-        let mut ended = 0;
-        for step in 0..count {
-            let mut best = (usize::MAX, 0.0);
-            for begun in (step * n / count).max(1)..(step + 1) * n / count {
-                let at = starts[begun];
-                // Of equal starts, the first.
-                if at == starts[begun - 1] {
-                    continue;
-                }
-                while ended < n && ends[ended] <= at {
-                    ended += 1;
-                }
-                let cuts = begun - ended.min(begun);
-                if cuts < best.0 {
-                    best = (cuts, at);
-                }
-            }
-            if best.0 < usize::MAX {
-                found.push(best.1);
-            }
-        }
-        for at in found {
-            let touches = |piece: &&Piece| piece.min[axis] == at && piece.min_is_corner(axis);
-            let corner = set
-                .pieces
-                .iter()
-                .filter(touches)
-                .find_map(|piece| piece.corner_at(set.faces, axis, at));
-            if let Some(corner) = corner {
-                let plane = PlaneId::axis(axis, corner);
-                let packed = self.packed.axis_plane(axis, at);
-                self.add_row(set, plane, &packed, usize::MAX);
-            }
-        }
-    }
-
-    /// The number of pieces of the whole set.
-    fn len(&self) -> usize {
-        self.pieces.len()
-    }
-
     /// The plane of a row.
     pub(in crate::build) fn plane(&self, row: usize) -> &PreparedPlane {
         &self.planes[row]
     }
 
     /// How the plane of a row divides a part.
-    pub(in crate::build) fn sides(&self, row: usize, part: &Part) -> Sides {
+    pub(in crate::build) fn sides(&self, row: usize, part: &Mask) -> Sides {
         let Row { front, back, .. } = self.rows[row];
-        let pieces = part.pieces;
-        Sides { front: front & pieces, back: back & pieces, on: pieces & !front & !back }
+        Sides { front: front & *part, back: back & *part, on: *part & !front & !back }
     }
 
-    /// The row whose plane divides a part at the lowest cost. Forgets axis planes that do not divide the part.
-    pub(in crate::build) fn best(&mut self, part: &mut Part, tuning: &Tuning) -> usize {
-        let words = part.pieces.words();
+    /// The plane that divides a part: a row of lowest cost, or an axis plane.
+    pub(in crate::build) fn choose(
+        &mut self,
+        rules: &ChooseContext<'_>,
+        set: &Set<'_>,
+        part: &Mask,
+    ) -> Result<Chosen, Error> {
+        let words = part.words();
         match words.len() {
-            0 | 1 => self.best_in::<1>(part, words.start, tuning),
-            2 => self.best_in::<2>(part, words.start, tuning),
-            _ => self.best_in::<WORDS>(part, 0, tuning),
+            0 | 1 => self.choose_in::<1>(rules, set, part, words.start),
+            2 => self.choose_in::<2>(rules, set, part, words.start),
+            _ => self.choose_in::<WORDS>(rules, set, part, 0),
         }
     }
 
     /// The same, for a part with all pieces in `N` words from `first`.
-    fn best_in<const N: usize>(&mut self, part: &mut Part, first: usize, tuning: &Tuning) -> usize {
-        let (count, n) = (part.pieces.count(), self.len());
-        self.priced.clear();
-        let mut cuts = 0;
-        for row in part.pieces.iter() {
-            let (counts, risk) = self.rows[row].counts::<N>(&part.pieces, first);
-            cuts += u64::from(counts.splits);
-            let cost = Cost::of(&counts);
-            self.priced.push(Priced { cost, cuts: counts.splits, risk, row: row as u32 });
+    fn choose_in<const N: usize>(
+        &mut self,
+        rules: &ChooseContext<'_>,
+        set: &Set<'_>,
+        part: &Mask,
+        first: usize,
+    ) -> Result<Chosen, Error> {
+        if let Some(row) = self.best_without_cuts::<N>(part, first) {
+            return Ok(Chosen::Row(row));
         }
-        for axis in bits(part.axes.into()) {
-            let (counts, _) = self.rows[n + axis].counts::<N>(&part.pieces, first);
-            let Counts { front, back, splits } = counts;
-            if front + splits == count as u32 || back + splits == count as u32 {
-                part.axes &= !(1 << axis);
-            } else {
-                let cost = Cost::of(&counts);
-                self.priced.push(Priced { cost, cuts: splits, risk: 0, row: (n + axis) as u32 });
+        let (free, tuning) = (self.axis_plane(rules, set, part)?, rules.tuning);
+        if let Some(free) = free
+            && !free.cost.cuts
+            && let Some((plane, sides)) = self.divided_by(rules, set, part, free.plane)?
+            && sides.cuts().is_empty()
+        {
+            return Ok(Chosen::Axis(plane, sides));
+        }
+        let density = self.price::<N>(part, first, tuning);
+        let few = if density < tuning.risk_at { tuning.pairs } else { 1 };
+        let few = few.clamp(1, self.priced.len());
+        let less = |a: &Priced, b: &Priced| a.cost.total_cmp(&b.cost).then(a.row.cmp(&b.row));
+        self.priced.select_nth_unstable_by(few - 1, less);
+        let axis = match free {
+            Some(free) if free.cost.amount < self.priced[few - 1].cost => {
+                self.divided_by(rules, set, part, free.plane)?
             }
+            _ => None,
+        };
+        Ok(self.best_of::<N>(few, part, first, tuning, axis))
+    }
+
+    /// Of the rows whose planes cut nothing, the one that divides a part most evenly.
+    fn best_without_cuts<const N: usize>(&self, part: &Mask, first: usize) -> Option<usize> {
+        let mut best = (u32::MAX, None);
+        for row in part.iter() {
+            let this = &self.rows[row];
+            if !this.cuts_some::<N>(part, first) {
+                let imbalance = this.imbalance::<N>(part, first);
+                if imbalance < best.0 {
+                    best = (imbalance, Some(row));
+                }
+            }
+        }
+        best.1
+    }
+
+    /// Finds the costs of all rows of a part. Returns the mean share of the part that a plane cuts.
+    fn price<const N: usize>(&mut self, part: &Mask, first: usize, tuning: &Tuning) -> f64 {
+        let (count, mut cuts) = (part.count(), 0);
+        self.priced.clear();
+        for row in part.iter() {
+            let (counts, risk) = self.rows[row].counts::<N>(part, first);
+            cuts += u64::from(counts.splits);
+            let cost = Cost::of(&counts).amount;
+            self.priced.push(Priced { cost, cuts: counts.splits, risk, row: row as u32 });
         }
         let density = cuts as f64 / (count * count) as f64;
         let share = density / (density + tuning.risk_at);
         let weight = tuning.risk * share * 1.25 * work(count) / count as f64;
         for priced in &mut self.priced {
-            priced.cost.amount -= weight * f64::from(priced.risk);
+            priced.cost -= weight * f64::from(priced.risk);
         }
-        let less = |a: &&Priced, b: &&Priced| a.cost.cmp(&b.cost).then(a.row.cmp(&b.row));
-        match self.priced.iter().min_by(less) {
-            Some(best) if best.cost.cuts && density < tuning.risk_at => {
-                self.best_of_pairs::<N>(part, first, tuning)
-            }
-            best => best.map_or(0, |best| best.row as usize),
-        }
+        density
     }
 
-    /// Of the rows of lowest cost, the one whose plane and the next planes together cut the fewest pieces.
-    fn best_of_pairs<const N: usize>(
+    /// Of the `few` planes of lowest cost, the one that cuts the fewest pieces together with the next planes.
+    fn best_of<const N: usize>(
         &mut self,
-        part: &Part,
+        few: usize,
+        part: &Mask,
         first: usize,
         tuning: &Tuning,
-    ) -> usize {
-        let few = tuning.pairs.clamp(1, self.priced.len());
-        if few < self.priced.len() {
-            let less = |a: &Priced, b: &Priced| a.cost.cmp(&b.cost).then(a.row.cmp(&b.row));
-            self.priced.select_nth_unstable_by(few, less);
-        }
-        let score = |priced: &Priced| {
-            let Sides { front, back, .. } = self.sides(priced.row as usize, part);
+        axis: Option<(PreparedPlane, Sides)>,
+    ) -> Chosen {
+        let next = |sides: &Sides| {
             let mut next = 0;
-            for side in [front, back] {
+            for side in [sides.front, sides.back] {
                 for row in side.iter() {
                     next += self.rows[row].cuts::<N>(&side, first);
                 }
             }
-            f64::from(priced.cuts) + tuning.next_cuts * f64::from(next)
+            next
+        };
+        let score = |cuts: usize, sides: &Sides| match few {
+            1 => 0.0,
+            _ => cuts as f64 + tuning.next_cuts * f64::from(next(sides)),
         };
         let mut best = (f64::INFINITY, f64::INFINITY, u32::MAX);
         for priced in &self.priced[..few] {
-            let this = (score(priced), priced.cost.amount, priced.row);
+            let score = score(priced.cuts as usize, &self.sides(priced.row as usize, part));
+            let this = (score, priced.cost, priced.row);
             if this < best {
                 best = this;
             }
         }
-        best.2 as usize
+        if let Some((plane, sides)) = axis {
+            let cost = work(sides.front.count()) + work(sides.back.count());
+            let this = (score(sides.cuts().count(), &sides), cost);
+            if this < (best.0, best.1) {
+                return Chosen::Axis(plane, sides);
+            }
+        }
+        Chosen::Row(best.2 as usize)
     }
 
-    /// An axis plane that cuts nothing of a part and has fewer pieces on each side.
-    pub(in crate::build) fn gap(
+    /// The best axis plane of a part, by rounded ends of pieces.
+    fn axis_plane(
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
-        part: &Part,
-    ) -> Result<Option<(PreparedPlane, Sides)>, Error> {
+        part: &Mask,
+    ) -> Result<Option<PricedPlane>, Error> {
         self.gathered.clear();
-        self.gathered.extend(part.pieces.iter().map(|piece| self.pieces[piece]));
-        let gathered = Set::new(set.faces, &self.gathered, set.arena).with(set.planes);
-        let Some(free) = self.free.clean(&gathered, rules.tuning) else { return Ok(None) };
-        let plane = gathered.prepare(free.plane);
+        self.gathered.extend(part.iter().map(|piece| self.pieces[piece]));
+        self.free.find(&Set::new(set.faces, &self.gathered, set.arena), rules)
+    }
+
+    /// How any plane divides a part; `None` if it has all pieces on one side, or separates coplanar pieces.
+    fn divided_by(
+        &mut self,
+        rules: &ChooseContext<'_>,
+        set: &Set<'_>,
+        part: &Mask,
+        plane: PlaneId,
+    ) -> Result<Option<(PreparedPlane, Sides)>, Error> {
+        let plane = set.prepare(plane);
         let (mut sides, mut near) = (Sides::default(), Mask::default());
-        for place in part.pieces.iter() {
+        for place in part.iter() {
             let piece = &self.pieces[place];
             let cut = piece.cut_vertices(set.arena);
             let (side, is_near) = plane.classify_and_reach(set.faces, piece.face, cut);
@@ -477,12 +471,14 @@ impl Table {
                 Side::Front => sides.front.set(place, true),
                 Side::Back => sides.back.set(place, true),
                 Side::Coplanar => sides.on.set(place, true),
-                // Rounded ends of pieces found the plane.
-                Side::Spanning => return Ok(None),
+                Side::Spanning => {
+                    sides.front.set(place, true);
+                    sides.back.set(place, true);
+                }
             }
             near.set(place, is_near);
         }
-        let divides = sides.front != part.pieces && sides.back != part.pieces;
+        let divides = sides.front != *part && sides.back != *part;
         let keeps_pairs = self.rival_of(rules, set, (&plane, sides, near), &[])?.is_none();
         Ok((divides && keeps_pairs).then_some((plane, sides)))
     }
@@ -493,7 +489,7 @@ impl Table {
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
         row: usize,
-        part: &Part,
+        part: &Mask,
     ) -> Result<usize, Error> {
         follow_rivals(row, |row, tried| {
             let rival = self.rival(rules, set, row, part, tried)?;
@@ -507,7 +503,7 @@ impl Table {
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
         row: usize,
-        part: &Part,
+        part: &Mask,
         tried: &[u32],
     ) -> Result<Option<usize>, Error> {
         let (plane, near) = (self.planes[row], self.rows[row].near);
@@ -548,37 +544,27 @@ impl Table {
             || on.iter().any(|piece| has_some_of(piece, beside))
     }
 
-    /// The planes that cut a piece.
-    pub(in crate::build) fn cut_by(&self, piece: usize, part: &Part) -> CutBy {
-        let n = self.len();
-        let cuts = |axis: &usize| {
-            let Row { front, back, .. } = self.rows[n + axis];
-            (front & back).contains(piece)
-        };
-        let axes = bits(part.axes.into()).filter(cuts).fold(0, |axes, axis| axes | 1 << axis);
-        CutBy { own: self.rows[piece].cut_by, axes }
+    /// The rows of a part whose planes cut a piece.
+    pub(in crate::build) fn cut_by(&self, piece: usize, part: &Mask) -> Mask {
+        self.rows[piece].cut_by & *part
     }
 
-    /// Replaces a piece by a part of it. `before` are the planes that cut the whole piece.
+    /// Replaces a piece by a part of it. `before` are the rows whose planes cut the whole piece.
     pub(in crate::build) fn replace(
         &mut self,
         set: &Set<'_>,
         (piece, new): (usize, Piece),
-        before: CutBy,
-        part: &Part,
+        before: Mask,
+        part: &Mask,
     ) {
-        let n = self.len();
         self.pieces[piece] = new;
         let mut still = Mask::default();
-        let own = (before.own & part.pieces).iter();
-        for row in own.chain(bits((before.axes & part.axes).into()).map(|axis| n + axis)) {
+        for row in (before & *part).iter() {
             let cut = new.side(set.faces, &self.planes[row], set.arena);
             let Row { front, back, .. } = &mut self.rows[row];
             front.set(piece, matches!(cut, Side::Front | Side::Spanning));
             back.set(piece, matches!(cut, Side::Back | Side::Spanning));
-            if cut == Side::Spanning && row < n {
-                still.set(row, true);
-            }
+            still.set(row, cut == Side::Spanning);
         }
         self.rows[piece].cut_by = still;
     }
