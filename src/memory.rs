@@ -65,9 +65,13 @@ pub(crate) fn empty<K, V>(table: &mut HashMap<K, V>) {
     }
 }
 
+/// Lists of fewer bytes double. Too small: lists that grow are copied more often. Too large: spare memory.
+const SMALL_LIST: usize = 1 << 18;
+
 #[cold]
 fn grow<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
-    let spare = (list.len() / 8).max(64);
+    let bytes = size_of_val(list.as_slice());
+    let spare = if bytes < SMALL_LIST { list.len() } else { list.len() / 8 }.max(64);
     list.try_reserve_exact(more.saturating_add(spare)).map_err(|_| Error::out_of_memory())
 }
 

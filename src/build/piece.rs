@@ -141,6 +141,20 @@ impl Piece {
         plane.classify(faces, self.face, self.cut_vertices(arena))
     }
 
+    /// The same side, and whether the piece may come within twice the tolerance of the plane. Looks at the box first.
+    #[inline]
+    pub(crate) fn side_and_reach(
+        &self,
+        faces: &Faces,
+        plane: &PreparedPlane,
+        arena: &[Vertex],
+    ) -> (Side, bool) {
+        match plane.side_of_box([self.min, self.max]) {
+            Some(side) => (side, false),
+            None => plane.classify_and_reach(faces, self.face, self.cut_vertices(arena)),
+        }
+    }
+
     /// The side of a plane on which the piece lies, as if the tolerance were 0.
     pub(crate) fn exact_side(
         &self,
@@ -255,8 +269,7 @@ impl Division {
         self.sides.reserve_exact(pieces.len());
         self.near.clear();
         for (piece, number) in pieces.iter().zip(0..) {
-            let cut = piece.cut_vertices(arena);
-            let (side, is_near) = plane.classify_and_reach(faces, piece.face, cut);
+            let (side, is_near) = piece.side_and_reach(faces, &plane, arena);
             self.counts[side as usize] += 1;
             self.sides.push(side);
             if is_near && side != Side::Coplanar {

@@ -523,6 +523,12 @@ fn area(corners: &[DVec3]) -> f64 {
     (corners[1] - corners[0]).cross(corners[2] - corners[0]).length()
 }
 
+/// The width of a triangle, at most.
+fn width(corners: &[DVec3]) -> f64 {
+    let sides = (0..3).map(|i| corners[i].distance(corners[(i + 1) % 3]));
+    area(corners) / sides.fold(0.0, f64::max)
+}
+
 #[derive(Default)]
 struct Judged {
     /// Shapes that were judged: polygons, lines, points.
@@ -548,6 +554,11 @@ fn judge(dice: &mut Dice, numbers: Numbers, judged: &mut Judged) {
     for _ in 0..8 {
         let fragment = tree.fragment(dice.below(tree.len()) as u32);
         let (host, corners) = (fragment.face(), &polygons[fragment.polygon()]);
+        // Narrow polygons may lie on planes at large angles.
+        let is_narrow = |width: f64| width.is_nan() || width <= 20.0 * tree.stats().tolerance;
+        if is_narrow(width(corners)) {
+            continue;
+        }
         // A plane of the tree that cuts the host separates parts within the tolerance of that plane.
         if tree.fragments().filter(|f| f.face() == host).count() > 1 {
             continue;
@@ -561,10 +572,7 @@ fn judge(dice: &mut Dice, numbers: Numbers, judged: &mut Judged) {
         };
         let card = [inside(), inside(), inside()];
         let kind = dice.below(3);
-        // Narrow shapes may lie on planes at large angles.
-        let longest = (0..3).map(|i| card[i].distance(card[(i + 1) % 3])).fold(0.0, f64::max);
-        let width = [area(&card) / longest, card[0].distance(card[1]), f64::INFINITY][kind];
-        if width.is_nan() || width <= 20.0 * tree.stats().tolerance {
+        if is_narrow([width(&card), card[0].distance(card[1]), f64::INFINITY][kind]) {
             continue;
         }
         let used = &card[..3 - kind];

@@ -464,9 +464,8 @@ impl Table {
         let plane = set.prepare(plane);
         let (mut sides, mut near) = (Sides::default(), Mask::default());
         for place in part.iter() {
-            let piece = &self.pieces[place];
-            let cut = piece.cut_vertices(set.arena);
-            let (side, is_near) = plane.classify_and_reach(set.faces, piece.face, cut);
+            let (side, is_near) =
+                self.pieces[place].side_and_reach(set.faces, &plane, set.arena);
             match side {
                 Side::Front => sides.front.set(place, true),
                 Side::Back => sides.back.set(place, true),
