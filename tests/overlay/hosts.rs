@@ -509,12 +509,41 @@ fn wall(dice: &mut Dice, at: impl Fn(f64, f64) -> DVec3) -> Vec<Corners> {
 
 /// Whether all given corners are clearly within the tolerance of a face's plane.
 fn are_on(faces: &Faces, face: u32, corners: &[[f64; 3]]) -> bool {
-    let plane = model::plane(faces, PlaneId::face(face));
+    are_on_plane(faces, PlaneId::face(face), corners)
+}
+
+/// The same for any plane.
+fn are_on_plane(faces: &Faces, plane: PlaneId, corners: &[[f64; 3]]) -> bool {
+    let plane = model::plane(faces, plane);
     let most = exact(faces.tolerance()) * exact(1.0 - 1e-6);
     let most = &most * &most * scalar(&plane.normal, &plane.normal);
     corners.iter().all(|corner| {
         let off: Rational = plane.at(&corner.map(exact));
         &off * &off <= most
+    })
+}
+
+/// Whether a plane on which neither lies separates a polygon of a tree from a larger one that may be under a shape too.
+/// Then the shape follows the larger one.
+fn is_apart(tree: &BspTree, host: u32, polygons: &[Corners], shape: &[DVec3]) -> bool {
+    let (face, own) = (tree.fragment(host).face(), tree.fragment(host).polygon());
+    let corners = |face: u32| tree.faces().corners(face);
+    let is_under = |polygon: usize| {
+        let within = |axis: usize| {
+            let ends = |points: &[DVec3], least: fn(f64, f64) -> f64| {
+                points.iter().map(|p| p[axis]).reduce(least).expect("a corner")
+            };
+            let near = tree.stats().tolerance;
+            ends(&polygons[polygon], f64::min) <= ends(shape, f64::max) + near
+                && ends(shape, f64::min) <= ends(&polygons[polygon], f64::max) + near
+        };
+        area(&polygons[polygon]) > area(&polygons[own]) && (0..3).all(within)
+    };
+    tree.fragments().filter(|other| is_under(other.polygon())).any(|other| {
+        tree.plane_between(host, other.index()).is_some_and(|plane| {
+            let lies = |face: u32| are_on_plane(tree.faces(), plane, corners(face));
+            !lies(face) && !lies(other.face())
+        })
     })
 }
 
@@ -596,6 +625,9 @@ fn judge(dice: &mut Dice, numbers: Numbers, judged: &mut Judged) {
                 && are_on(faces, other, &on_grid)
                 && !are_on(faces, other, faces.corners(host))
         };
+        if is_apart(&tree, fragment.index(), &polygons, used) {
+            continue;
+        }
         judged.shapes[kind] += 1;
         judged.on_two_planes += usize::from((0..tree.faces().len() as u32).any(leaves));
         for sign in [1.0, -1.0] {

@@ -167,8 +167,8 @@ impl Row {
     #[inline]
     fn imbalance<const N: usize>(&self, mask: &Mask, first: usize) -> u32 {
         let count = |side: &Mask, word: usize| (side.0[word] & mask.0[word]).count_ones();
-        let [front, back] =
-            [&self.front, &self.back].map(|side| (first..first + N).map(|word| count(side, word)).sum::<u32>());
+        let [front, back] = [&self.front, &self.back]
+            .map(|side| (first..first + N).map(|word| count(side, word)).sum::<u32>());
         front.abs_diff(back)
     }
 
@@ -464,8 +464,7 @@ impl Table {
         let plane = set.prepare(plane);
         let (mut sides, mut near) = (Sides::default(), Mask::default());
         for place in part.iter() {
-            let (side, is_near) =
-                self.pieces[place].side_and_reach(set.faces, &plane, set.arena);
+            let (side, is_near) = self.pieces[place].side_and_reach(set.faces, &plane, set.arena);
             match side {
                 Side::Front => sides.front.set(place, true),
                 Side::Back => sides.back.set(place, true),

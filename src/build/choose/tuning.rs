@@ -12,9 +12,6 @@ pub struct Tuning {
     /// because a table has a bit for each pair of pieces. Too small: the planes above tables are chosen with
     /// less care, so there are more fragments.
     pub small: usize,
-    /// The number of axis planes of a table, along each axis. Too large: time. Too small: more fragments, if
-    /// walls are in the way of the pieces' own planes.
-    pub axis_planes: usize,
     /// The weight of the planes that cut a piece: that piece's plane costs less, because a wall that is not
     /// used early is cut again and again. Too large: depth is wasted on pieces that no used plane would cut.
     /// Too small: large polygons are cut.
@@ -65,7 +62,6 @@ impl Tuning {
     pub const DEFAULT: Self = Self {
         clean_below: 64,
         small: 256,
-        axis_planes: 8,
         risk: 0.5,
         risk_at: 0.2,
         pairs: 4,

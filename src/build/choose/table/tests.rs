@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::super::cost::{Cost, Counts, work};
+use super::super::cost::{Cost, Counts};
 use super::super::set::Set;
 use super::super::tests::{Fixture, grid, triangles};
-use super::{Mask, Part, Sides, Table};
+use super::{Chosen, Mask, Sides, Table};
 use crate::build::BuildOptions;
 use crate::build::choose::ChooseContext;
 use crate::build::choose::tuning::Tuning;
@@ -14,7 +14,7 @@ use crate::exact::{PlaneId, Side};
 use crate::progress::Watch;
 use crate::random::SplitMix64;
 
-/// Sets of every kind: apart, crossing, connected, and so flat that only integers decide.
+/// Sets of every kind: apart, crossing, in groups, connected, and so flat that only integers decide.
 fn fixtures() -> Vec<Fixture> {
     let mut random = SplitMix64::new(1);
     let mut fixtures = vec![];
@@ -22,6 +22,14 @@ fn fixtures() -> Vec<Fixture> {
         for (count, size) in [(2, 1.0), (3, 2.0), (17, 0.5), (64, 0.3), (65, 0.02), (256, 0.05)] {
             fixtures.push(Fixture::new(&triangles(&mut random, count, size), tolerance));
         }
+        // Two groups apart, in each of which all planes cut.
+        let mut groups = triangles(&mut random, 40, 2.0);
+        groups
+            .iter_mut()
+            .flatten()
+            .zip(0..)
+            .for_each(|(p, corner)| p.x += f64::from(corner % 6 / 3) * 9.0);
+        fixtures.push(Fixture::new(&groups, tolerance));
         for height in [1e-1, 1e-8, 1e-13] {
             let rough = grid(8, |_| height * random.point(-1.0, 1.0).x);
             fixtures.push(Fixture::new(&rough, tolerance));
@@ -44,14 +52,18 @@ fn for_each_set(mut see: impl FnMut(&Fixture)) {
     }
 }
 
+fn choose(table: &mut Table, set: &Set<'_>, part: &Mask, tuning: &Tuning) -> Chosen {
+    let (options, watch) = (BuildOptions::DEFAULT, Watch::default());
+    table.choose(&ChooseContext::new(&options, tuning, &watch), set, part).unwrap()
+}
+
 /// Asserts that all sides of a part are those of classification. Returns how often each side was found.
-fn assert_sides(table: &Table, set: &Set<'_>, part: &Part) -> [usize; 4] {
+fn assert_sides(table: &Table, set: &Set<'_>, part: &Mask) -> [usize; 4] {
     let mut found = [0; 4];
-    let axes = super::bits(part.axes.into()).map(|axis| table.len() + axis);
-    for row in part.pieces.iter().chain(axes) {
+    for row in part.iter() {
         let Sides { front, back, on } = table.sides(row, part);
-        assert_eq!(front | back | on, part.pieces);
-        for piece in part.pieces.iter() {
+        assert_eq!(front | back | on, *part);
+        for piece in part.iter() {
             let expected = table.pieces[piece].side(set.faces, table.plane(row), set.arena);
             let side = match (front.contains(piece), back.contains(piece)) {
                 (true, true) => Side::Spanning,
@@ -61,10 +73,8 @@ fn assert_sides(table: &Table, set: &Set<'_>, part: &Part) -> [usize; 4] {
             };
             assert_eq!(side, expected, "{piece} at {row} of {}", set.len());
             found[side as usize] += 1;
-            if row < table.len() {
-                let is_cut = table.rows[piece].cut_by.contains(row);
-                assert_eq!(is_cut, side == Side::Spanning, "{piece} at {row}");
-            }
+            let is_cut = table.rows[piece].cut_by.contains(row);
+            assert_eq!(is_cut, side == Side::Spanning, "{piece} at {row}");
         }
     }
     found
@@ -75,8 +85,8 @@ fn a_table_has_the_sides_that_classification_finds() {
     let (mut table, mut found) = (Table::default(), [0; 4]);
     for_each_set(|fixture| {
         let set = fixture.set();
-        let part = table.fill(&set, &Tuning::DEFAULT);
-        assert_eq!(part.pieces.count(), set.len());
+        let part = table.fill(&set);
+        assert_eq!(part.count(), set.len());
         let mut faces: Vec<u32> = table.pieces.iter().map(|piece| piece.face).collect();
         faces.sort_unstable();
         assert!(faces.iter().eq(set.pieces.iter().map(|piece| &piece.face)));
@@ -97,18 +107,25 @@ fn after_every_cut_the_table_has_the_sides_of_the_parts() {
         if whole.len() > 100 {
             return;
         }
-        let mut stack = vec![(table.fill(&whole, &Tuning::DEFAULT), vec![])];
-        while let Some((mut part, cut)) = stack.pop() {
+        let mut stack = vec![(table.fill(&whole), vec![])];
+        while let Some((part, cut)) = stack.pop() {
             let set = Set::new(&fixture.faces, &[], &arena);
             for (place, piece, before) in cut {
                 table.replace(&set, (place, piece), before, &part);
             }
             parts += 1;
             assert_sides(&table, &set, &part);
-            let best = table.best(&mut part, &Tuning::DEFAULT);
-            let any = part.pieces.iter().nth(random.next() as usize % part.pieces.count());
-            let row = if random.next().is_multiple_of(2) { best } else { any.unwrap() };
-            let (Sides { front, back, .. }, plane) = (table.sides(row, &part), *table.plane(row));
+            let row = part.iter().nth(random.next() as usize % part.count()).unwrap();
+            let (mut plane, mut sides) = (*table.plane(row), table.sides(row, &part));
+            if random.next().is_multiple_of(2) {
+                match choose(&mut table, &set, &part, &Tuning::DEFAULT) {
+                    Chosen::Row(row) => {
+                        (plane, sides) = (*table.plane(row), table.sides(row, &part))
+                    }
+                    Chosen::Axis(axis, divided) => (plane, sides) = (axis, divided),
+                }
+            }
+            let Sides { front, back, .. } = sides;
             let mut of_front: Vec<(usize, Piece, _)> = vec![];
             let mut of_back = vec![];
             for place in (front & back).iter() {
@@ -121,7 +138,7 @@ fn after_every_cut_the_table_has_the_sides_of_the_parts() {
             }
             for (side, cut) in [(back, of_back), (front, of_front)] {
                 if side.count() > 1 {
-                    stack.push((part.of(side), cut));
+                    stack.push((side, cut));
                 }
             }
         }
@@ -129,32 +146,42 @@ fn after_every_cut_the_table_has_the_sides_of_the_parts() {
     assert!(cuts > 1000 && parts > 1500, "{cuts} cuts, {parts} parts");
 }
 
-/// Without rewards and with no look at the next planes, the best row is that of the least cost.
+/// Without rewards and with no look at the next planes, no row costs less than the plane that is chosen. An axis plane
+/// is chosen only if every row cuts.
 #[test]
-fn the_best_row_costs_least() {
+fn the_best_plane_costs_least() {
     let tuning = Tuning { risk: 0.0, pairs: 1, ..Tuning::DEFAULT };
     let mut table = Table::default();
     let mut of_axes = 0;
     for_each_set(|fixture| {
         let set = fixture.set();
-        let mut part = table.fill(&set, &tuning);
-        let cost = |row: usize| {
-            let Sides { front, back, .. } = table.sides(row, &part);
+        let part = table.fill(&set);
+        let cost = |Sides { front, back, .. }: Sides| {
             let splits = (front & back).count() as u32;
             let [front, back] = [front, back].map(|side| side.count() as u32 - splits);
             Cost::of(&Counts { front, back, splits })
         };
-        let divides = |row: &usize| {
-            let Sides { front, back, .. } = table.sides(*row, &part);
-            *row < set.len() || front != part.pieces && back != part.pieces
-        };
-        let least = (0..table.rows.len()).filter(divides).map(cost).min_by(Cost::cmp).unwrap();
-        let best = table.best(&mut part, &tuning);
-        of_axes += usize::from(best >= set.len());
-        let Sides { front, back, .. } = table.sides(best, &part);
-        assert_eq!((!(front & back).is_empty(), work(front.count()) + work(back.count())), {
-            (least.cuts, least.amount)
-        });
+        let least = part.iter().map(|row| cost(table.sides(row, &part))).min_by(Cost::cmp).unwrap();
+        match choose(&mut table, &set, &part, &tuning) {
+            Chosen::Row(row) if least.cuts => assert_eq!(cost(table.sides(row, &part)), least),
+            Chosen::Row(row) => {
+                let evenness = |row: usize| {
+                    let Sides { front, back, .. } = table.sides(row, &part);
+                    ((front & back).is_empty()).then_some(front.count().abs_diff(back.count()))
+                };
+                assert_eq!(evenness(row), part.iter().filter_map(evenness).min());
+            }
+            Chosen::Axis(plane, sides) => {
+                for piece in part.iter() {
+                    let expected = table.pieces[piece].side(set.faces, &plane, set.arena);
+                    let found = [sides.front, sides.back].map(|side| side.contains(piece));
+                    let reaches = |side| expected == side || expected == Side::Spanning;
+                    assert_eq!(found, [Side::Front, Side::Back].map(reaches), "{piece}");
+                }
+                assert!(least.cuts && cost(sides).is_less(&least));
+                of_axes += 1;
+            }
+        }
     });
     assert!(of_axes > 1, "{of_axes}");
 }
@@ -167,10 +194,12 @@ fn a_piece_that_many_planes_cut_is_used_early() {
     polygons.push([DVec3::new(-3.0, 0.01, -3.0), DVec3::new(3.0, 0.02, -3.0), DVec3::Z * 3.0]);
     let (fixture, mut table) = (Fixture::new(&polygons, 0.0), Table::default());
     let wall = |risk: f64| {
-        let tuning = Tuning { risk, pairs: 1, axis_planes: 0, ..Tuning::DEFAULT };
-        let mut part = table.fill(&fixture.set(), &tuning);
-        let best = table.best(&mut part, &tuning);
-        table.pieces[best].face == 40
+        let tuning = Tuning { risk, pairs: 1, ..Tuning::DEFAULT };
+        let part = table.fill(&fixture.set());
+        match choose(&mut table, &fixture.set(), &part, &tuning) {
+            Chosen::Row(row) => table.pieces[row].face == 40,
+            Chosen::Axis(..) => false,
+        }
     };
     assert_eq!([0.0, 4.0].map(wall), [false, true]);
 }
@@ -194,10 +223,11 @@ fn a_free_plane_does_not_separate_coplanar_pieces() {
         let fixture = Fixture::new(&all, TOLERANCE);
         let set = fixture.set();
         let (mut table, tuning) = (Table::default(), Tuning::DEFAULT);
-        let part = table.fill(&set, &tuning);
+        let part = table.fill(&set);
         let (options, watch) = (BuildOptions::DEFAULT, Watch::default());
         let rules = ChooseContext::new(&options, &tuning, &watch);
-        let gap = table.gap(&rules, &set, &part).unwrap();
+        let gap = table.axis_plane(&rules, &set, &part).unwrap().expect("a gap");
+        let gap = table.divided_by(&rules, &set, &part, gap.plane).unwrap();
         assert_eq!(gap.is_some(), is_free, "{overlaps}");
     }
 }
