@@ -53,12 +53,11 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 42] = changes! {
+const CHANGES: [Change; 39] = changes! {
     frames: "as in frames" => Some(FrameTuning::FRAMES),
         "clean planes alone" => Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "¼" => 64, "½" => 128;
-    axis_planes: "0" => 0, "½" => 4, "×5/4" => 10;
     risk: "0" => 0.0, "½" => 0.25, "×2" => 1.0;
     risk_at: "½" => 0.1, "×2" => 0.4;
     pairs: "1" => 1, "½" => 2, "×2" => 8;

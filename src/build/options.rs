@@ -44,6 +44,9 @@ pub struct BuildOptions {
     /// [`Overlay`](crate::overlay::Overlay). The scene's extent includes this box, so the box may increase a
     /// default or relative tolerance. Default: no box.
     pub bounds: Option<[DVec3; 2]>,
+    /// The number of planes for which subtrees are tried. Default: 0, for none. See
+    /// [`with_trials`](Self::with_trials).
+    pub trials: usize,
     pub(super) chooser: Option<GivenChooser>,
 }
 
@@ -55,6 +58,7 @@ impl BuildOptions {
         max_fragments: 1 << 25,
         max_depth: usize::MAX,
         bounds: None,
+        trials: 0,
         chooser: None,
     };
 
@@ -98,6 +102,17 @@ impl BuildOptions {
     #[must_use]
     pub const fn with_bounds(mut self, corner: DVec3, opposite: DVec3) -> Self {
         self.bounds = Some([corner, opposite]);
+        self
+    }
+
+    /// Sets the number of planes for which subtrees are tried, for trees that are built once and used often.
+    ///
+    /// `Heuristic::Auto` estimates what follows a plane. With trials, for each set of at most 64 pieces that no plane
+    /// leaves whole, it builds the subtrees of the chosen plane and of this many others of low cost, and takes the plane
+    /// with the fewest cuts. Other heuristics make no trials.
+    #[must_use]
+    pub const fn with_trials(mut self, planes: usize) -> Self {
+        self.trials = planes;
         self
     }
 

@@ -36,7 +36,7 @@ pub(super) use given::GivenChooser;
 pub use given::{PieceSet, SplitPlane};
 pub(super) use peel::Peeled;
 pub(crate) use set::Set;
-pub(super) use table::{Chosen, Mask, Sides, Table};
+pub(super) use table::{Chosen, Mask, Row, Sides, Table};
 pub use tuning::{FrameTuning, Tuning};
 
 /// Chooses partition planes, with reused lists.

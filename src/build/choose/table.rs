@@ -8,6 +8,8 @@ use std::array::from_fn;
 use std::mem::take;
 use std::ops::{BitAnd, BitOr, Not, Range};
 
+use smallvec::SmallVec;
+
 use super::ChooseContext;
 use super::axis_planes::FreePlanes;
 use super::coplanar::{follow_rivals, larger};
@@ -126,7 +128,7 @@ impl Not for Mask {
 
 /// A plane, and the pieces on its sides.
 #[derive(Clone, Copy, Debug, Default)]
-struct Row {
+pub(in crate::build) struct Row {
     /// The pieces that reach in front of the plane. A piece that is also in `back` is cut by the plane; one that
     /// is in neither lies on the plane.
     front: Mask,
@@ -326,6 +328,7 @@ impl Table {
         set: &Set<'_>,
         part: &Mask,
     ) -> Result<Chosen, Error> {
+        self.priced.clear();
         let words = part.words();
         match words.len() {
             0 | 1 => self.choose_in::<1>(rules, set, part, words.start),
@@ -365,6 +368,30 @@ impl Table {
             _ => None,
         };
         Ok(self.best_of::<N>(few, part, first, tuning, axis))
+    }
+
+    /// The rows of lowest cost, after the choice of a plane; none, if a row cuts nothing.
+    pub(in crate::build) fn cheapest(&mut self, count: usize) -> SmallVec<[usize; 8]> {
+        let less = |a: &Priced, b: &Priced| a.cost.total_cmp(&b.cost).then(a.row.cmp(&b.row));
+        let count = count.min(self.priced.len());
+        if count < self.priced.len() {
+            self.priced.select_nth_unstable_by(count, less);
+        }
+        self.priced[..count].sort_unstable_by(less);
+        self.priced[..count].iter().map(|priced| priced.row as usize).collect()
+    }
+
+    /// Copies the pieces and the rows of a part.
+    pub(in crate::build) fn save(&self, part: &Mask, to: &mut Vec<(usize, Piece, Row)>) {
+        to.clear();
+        to.extend(part.iter().map(|place| (place, self.pieces[place], self.rows[place])));
+    }
+
+    /// Takes back what was copied.
+    pub(in crate::build) fn restore(&mut self, saved: &[(usize, Piece, Row)]) {
+        for &(place, piece, row) in saved {
+            (self.pieces[place], self.rows[place]) = (piece, row);
+        }
     }
 
     /// Of the rows whose planes cut nothing, the one that divides a part most evenly.
