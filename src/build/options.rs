@@ -107,10 +107,13 @@ impl BuildOptions {
 
     /// Sets the number of planes for which subtrees are tried, for trees that are built once and used often.
     ///
-    /// [`Heuristic::Auto`] estimates how many cuts follow a plane. With trials it counts them: where every plane cuts a set
-    /// of at most 64 pieces, the subtrees of this many planes of low cost are built, and the plane with the fewest cuts is
-    /// used. With 4 planes, real scenes have 1 to 4 % fewer fragments in 1.5 to 3.5 times the time. 0 and 1 mean no trials.
-    /// Other heuristics make none.
+    /// Where every polygon's plane cuts a set of at most 64 pieces, [`Heuristic::Auto`] builds the subtrees of this many
+    /// planes of low cost, and uses the plane whose subtree has the fewest cuts. With 0 and 1 it makes no trials. A node
+    /// of such a set takes the time of up to `planes` subtrees, which make no trials themselves.
+    ///
+    /// The tree is the same with any number of threads. Trials do not count towards `max_fragments`, and they end if the
+    /// build is cancelled. A [`FrameBuilder`](crate::FrameBuilder) makes trials too; other heuristics and builds with a
+    /// [chooser](Self::with_chooser) make none.
     #[must_use]
     pub const fn with_trials(mut self, planes: usize) -> Self {
         self.trials = planes;
@@ -232,9 +235,10 @@ pub enum Heuristic {
     /// plane cuts counts on both sides.
     ///
     /// A free plane that cuts nothing has priority. In a set of up to 256 polygons, the sides of all polygons
-    /// at all planes are then computed once, in O(n²) time and memory of fixed size, and all planes of the
-    /// set's subtree are chosen among the polygons' own planes and at most 24 free planes. Any plane without
-    /// cuts has priority there over any plane with cuts. A plane costs less if many planes cut its own
+    /// at the polygons' own planes are then computed once, in O(n²) time and memory of fixed size, and the
+    /// planes of the set's subtree are chosen from these. There a polygon's plane that cuts nothing comes first. If
+    /// every polygon's plane cuts, free planes are searched: among fewer than 64 polygons only those that cut
+    /// nothing. A plane costs less if many planes cut its own
     /// polygon, because a wall or floor that is not used early is cut repeatedly. If few planes cut few
     /// polygons, those of lowest cost are compared by the cuts of the next planes too. If every plane without
     /// cuts separates a single polygon at the boundary of the set, as in a convex body, one pass separates all

@@ -1,90 +1,97 @@
-//! Builds the subtree of a small set from a table of the sides of all pieces at all planes.
+//! Builds the subtree of a small set from a table of the sides of all pieces, and makes trials of subtrees.
 
-use super::choose::{ChooseContext, Chosen, Mask, Row, Set, Sides, Table};
+use smallvec::{SmallVec, smallvec};
+
+use super::choose::{ChooseContext, Chosen, Divided, Mask, Set, Sides, Table};
 use super::piece::{Piece, Splitter, compact};
 use super::subtree::{Builder, CUT, Shared};
 use crate::error::Error;
-use crate::exact::{PlaneId, PreparedPlane, Vertex};
+use crate::exact::{PlaneId, Vertex};
 use crate::tree::parts::{RawChild, RawNode};
-
-/// The most pieces of a part for which subtrees are tried. Too large: time. Too small: more fragments.
-const MOST_TRIED: usize = 64;
 
 /// A part of the set that is still to be divided.
 #[derive(Debug)]
 struct Pending {
     part: Mask,
-    /// The number of nodes above the part.
+    /// The number of nodes above the part; 0 in trials.
     depth: usize,
     /// The length of the arena that the part needs.
     arena: usize,
     /// The first of the pieces that were cut to make the part.
-    cut: usize,
+    first_cut: usize,
 }
 
-/// The parts that are still to be divided.
+/// A piece of a pending part that was cut.
+#[derive(Debug)]
+struct CutPiece {
+    /// The place in the table.
+    place: usize,
+    /// The part of the piece behind the plane.
+    behind: Piece,
+    /// The rows whose planes cut the whole piece.
+    cut_by: Mask,
+}
+
+/// The parts still to be divided, the next part on top, and their pieces that were cut.
 #[derive(Debug, Default)]
-pub(super) struct Parts {
-    /// A stack, the next part on top.
+struct Stack {
     pending: Vec<Pending>,
-    /// The cut pieces of pending parts: the place in the table, the part of the piece behind the plane, and the
-    /// planes that cut the whole piece.
-    cut: Vec<(usize, Piece, Mask)>,
+    cut_pieces: Vec<CutPiece>,
 }
 
-impl Parts {
-    pub(super) fn clear(&mut self) {
+impl Stack {
+    fn clear(&mut self) {
         self.pending.clear();
-        self.cut.clear();
+        self.cut_pieces.clear();
     }
 
-    /// Cuts pieces of a part by a plane: the parts in front take their places in the table. Returns the first of the
-    /// pieces in the list of cut pieces.
+    /// Cuts pieces of a part by a plane: the parts in front take their places in the table. Returns the place of the
+    /// first of them in the list of cut pieces.
     fn cut(
         &mut self,
         shared: &Shared<'_>,
         (table, splitter, arena): (&mut Table, &mut Splitter, &mut Vec<Vertex>),
-        (plane, places): (&PreparedPlane, Mask),
+        Divided { plane, sides }: &Divided,
         part: &Mask,
     ) -> Result<usize, Error> {
-        let first = self.cut.len();
-        for place in places.iter() {
+        let first = self.cut_pieces.len();
+        for place in sides.cuts().iter() {
             let whole = table.pieces[place];
-            let parts = splitter.cut(shared.faces, plane, &whole, arena)?;
-            self.cut.push((place, parts[1], table.cut_by(place, part)));
-            table.pieces[place] = parts[0];
+            let [in_front, behind] = splitter.cut(shared.faces, plane, &whole, arena)?;
+            let cut_by = table.cut_by(place, part);
+            self.cut_pieces.push(CutPiece { place, behind, cut_by });
+            table.pieces[place] = in_front;
         }
         Ok(first)
     }
 
-    /// Classifies the parts in front of the pieces from `first` on.
-    fn update(
+    /// Classifies the parts in front, of the cut pieces from `first` on, in the part with them.
+    fn classify_front(
         &self,
         shared: &Shared<'_>,
-        table: &mut Table,
-        arena: &[Vertex],
+        (table, arena): (&mut Table, &[Vertex]),
         first: usize,
-        front: &Mask,
+        part: &Mask,
     ) {
         let set = shared.bare_set(arena);
-        for &(place, _, before) in &self.cut[first..] {
+        for &CutPiece { place, cut_by, .. } in &self.cut_pieces[first..] {
             let piece = table.pieces[place];
-            table.replace(&set, (place, piece), before, front);
+            table.replace(&set, (place, piece), cut_by, part);
         }
     }
 
-    /// Takes the next part from the stack, and puts the pieces that were cut to make the part into the table.
+    /// Takes the next part and its depth, and puts the parts behind of its cut pieces into the table.
     fn resume(
         &mut self,
         shared: &Shared<'_>,
         table: &mut Table,
         arena: &mut Vec<Vertex>,
     ) -> Option<(Mask, usize)> {
-        let Pending { part, depth, arena: len, cut: first } = self.pending.pop()?;
+        let Pending { part, depth, arena: len, first_cut } = self.pending.pop()?;
         arena.truncate(len);
         let set = shared.bare_set(arena);
-        for (place, piece, before) in self.cut.drain(first..) {
-            table.replace(&set, (place, piece), before, &part);
+        for CutPiece { place, behind, cut_by } in self.cut_pieces.drain(first_cut..) {
+            table.replace(&set, (place, behind), cut_by, &part);
         }
         Some((part, depth))
     }
@@ -94,10 +101,9 @@ impl Parts {
 #[derive(Debug, Default)]
 pub(super) struct SmallSet {
     table: Table,
-    parts: Parts,
-    /// The parts of a trial, and the places, pieces and rows before it.
-    trial: Parts,
-    saved: Vec<(usize, Piece, Row)>,
+    stack: Stack,
+    /// The parts of a trial.
+    trial: Stack,
 }
 
 impl SmallSet {
@@ -110,7 +116,7 @@ impl SmallSet {
         let part = self.table.fill(set);
         Ok(match self.table.choose(rules, set, &part)? {
             Chosen::Row(row) => self.table.plane(row).id(),
-            Chosen::Axis(plane, _) => plane.id(),
+            Chosen::Axis(axis) => axis.plane.id(),
         })
     }
 }
@@ -130,17 +136,11 @@ impl Builder {
         let base = self.arena.len();
         let mut next = Some((self.small.table.fill(&set), depth));
         self.pieces.truncate(start);
-        self.small.parts.clear();
+        self.small.stack.clear();
         loop {
-            let (part, depth) = match next {
-                Some(next) => next,
-                None => {
-                    match self.small.parts.resume(shared, &mut self.small.table, &mut self.arena) {
-                        Some(resumed) => resumed,
-                        None => return Ok(()),
-                    }
-                }
-            };
+            let SmallSet { table, stack, .. } = &mut self.small;
+            let resumed = || stack.resume(shared, table, &mut self.arena);
+            let Some((part, depth)) = next.take().or_else(resumed) else { return Ok(()) };
             let count = part.count();
             shared.rules.watch.work(count * count / 64)?;
             if self.arena.len() > self.compact_at {
@@ -158,12 +158,15 @@ impl Builder {
                     }
                 }
             }
-            let (mut plane, mut sides) = self.settled(shared, &part, chosen)?;
-            if shared.options.trials > 1 && count <= MOST_TRIED && !sides.cuts().is_empty() {
-                (plane, sides) = self.best_by_trials(shared, &part, (plane, sides))?;
+            let mut divided = self.settled(shared, &part, chosen)?;
+            if shared.rules.trials > 1
+                && count <= shared.rules.tuning.most_tried
+                && !divided.sides.cuts().is_empty()
+            {
+                divided = self.best_by_trials(shared, &part, divided)?;
             }
-            let (front, back) = self.divide_small(shared, (&plane, sides), &part, depth)?;
-            self.small.parts.pending.extend(back);
+            let (front, back) = self.divide_small(shared, &divided, &part, depth)?;
+            self.small.stack.pending.extend(back);
             next = front.map(|front| (front, depth + 1));
         }
     }
@@ -174,31 +177,40 @@ impl Builder {
         shared: &Shared<'_>,
         part: &Mask,
         chosen: Chosen,
-    ) -> Result<(PreparedPlane, Sides), Error> {
+    ) -> Result<Divided, Error> {
         let (table, set) = (&mut self.small.table, shared.bare_set(&self.arena));
         match chosen {
-            Chosen::Axis(plane, sides) => Ok((plane, sides)),
+            Chosen::Axis(divided) => Ok(divided),
             Chosen::Row(row) => {
                 let row = table.settled(&shared.rules, &set, row, part)?;
-                Ok((*table.plane(row), table.sides(row, part)))
+                Ok(table.divided(row, part))
             }
         }
     }
 
-    /// Of a chosen plane and the rows of lowest cost, the plane after which the fewest cuts follow in the subtree of a
-    /// part.
+    /// Of the plane that was chosen last and the planes of other rows of low cost, the plane whose subtree of a part
+    /// has the fewest cuts.
     fn best_by_trials(
         &mut self,
         shared: &Shared<'_>,
         part: &Mask,
-        chosen: (PreparedPlane, Sides),
-    ) -> Result<(PreparedPlane, Sides), Error> {
-        let rows = self.small.table.cheapest(shared.options.trials);
-        let mut best = (self.cuts_after(shared, part, chosen, usize::MAX)?, chosen);
+        chosen: Divided,
+    ) -> Result<Divided, Error> {
+        let trials = shared.rules.trials;
+        let rows = self.small.table.rows_of_low_cost(trials);
+        if rows.is_empty() {
+            return Ok(chosen);
+        }
+        let mut best = (self.cuts_after(shared, part, &chosen, usize::MAX)?, chosen);
+        let mut tried: SmallVec<[PlaneId; 8]> = smallvec![chosen.plane.id()];
         for row in rows {
             let this = self.settled(shared, part, Chosen::Row(row))?;
-            if this.0.id() != chosen.0.id() {
-                let cuts = self.cuts_after(shared, part, this, best.0)?;
+            if tried.len() == trials {
+                break;
+            }
+            if !tried.contains(&this.plane.id()) {
+                tried.push(this.plane.id());
+                let cuts = self.cuts_after(shared, part, &this, best.0)?;
                 if cuts < best.0 {
                     best = (cuts, this);
                 }
@@ -212,33 +224,33 @@ impl Builder {
         &mut self,
         shared: &Shared<'_>,
         part: &Mask,
-        first: (PreparedPlane, Sides),
+        first: &Divided,
         most: usize,
     ) -> Result<usize, Error> {
         let arena = self.arena.len();
-        self.small.table.save(part, &mut self.small.saved);
+        self.small.table.save(part);
         self.small.trial.clear();
         let cuts = self.try_subtree(shared, part, first, most);
-        self.small.table.restore(&self.small.saved);
+        self.small.table.restore();
         self.arena.truncate(arena);
         cuts
     }
 
+    /// The same; leaves the table and the arena as they are after the subtree.
     fn try_subtree(
         &mut self,
         shared: &Shared<'_>,
         part: &Mask,
-        first: (PreparedPlane, Sides),
+        first: &Divided,
         most: usize,
     ) -> Result<usize, Error> {
-        let (mut cuts, mut first) = (0, Some(first));
-        let mut next = Some(*part);
+        let (mut cuts, mut next, mut first) = (0, Some(*part), Some(*first));
         loop {
             let SmallSet { table, trial, .. } = &mut self.small;
             let resumed = || trial.resume(shared, table, &mut self.arena).map(|(part, _)| part);
             let Some(part) = next.take().or_else(resumed) else { return Ok(cuts) };
             shared.rules.watch.work(part.count() * part.count() / 64)?;
-            let (plane, sides) = match first.take() {
+            let divided = match first.take() {
                 Some(first) => first,
                 None => {
                     let set = shared.bare_set(&self.arena);
@@ -246,21 +258,23 @@ impl Builder {
                     self.settled(shared, &part, chosen)?
                 }
             };
-            cuts += sides.cuts().count();
+            let Sides { front, back, .. } = divided.sides;
+            cuts += divided.sides.cuts().count();
             if cuts >= most {
                 return Ok(most);
             }
-            shared.rules.watch.work(sides.cuts().count() * CUT)?;
+            shared.rules.watch.work(divided.sides.cuts().count() * CUT)?;
             let Self { small: SmallSet { table, trial, .. }, splitter, arena, .. } = self;
-            let cut = trial.cut(shared, (table, splitter, arena), (&plane, sides.cuts()), &part)?;
-            if sides.front.count() > 1 {
-                trial.update(shared, table, arena, cut, &sides.front);
-                next = Some(sides.front);
+            let first_cut = trial.cut(shared, (table, splitter, arena), &divided, &part)?;
+            if front.count() > 1 {
+                trial.classify_front(shared, (table, arena), first_cut, &front);
+                next = Some(front);
             }
-            if sides.back.count() > 1 {
-                trial.pending.push(Pending { part: sides.back, depth: 0, arena: arena.len(), cut });
+            if back.count() > 1 {
+                let arena = arena.len();
+                trial.pending.push(Pending { part: back, depth: 0, arena, first_cut });
             } else {
-                trial.cut.truncate(cut);
+                trial.cut_pieces.truncate(first_cut);
             }
         }
     }
@@ -273,17 +287,18 @@ impl Builder {
         base: usize,
         part: &Mask,
     ) -> Result<(), Error> {
-        let SmallSet { table, parts: Parts { pending, cut }, .. } = &mut self.small;
+        let SmallSet { table, stack: Stack { pending, cut_pieces }, .. } = &mut self.small;
         // Each place in the table is used by one part at most: a pending part whose piece was cut has it in the list.
-        let (mut used, mut end) = (*part, cut.len());
+        let (mut used, mut end) = (*part, cut_pieces.len());
         for pending in pending.iter().rev() {
-            let is_cut: Mask = cut[pending.cut..end].iter().map(|&(place, ..)| place).collect();
+            let cut = &cut_pieces[pending.first_cut..end];
+            let is_cut: Mask = cut.iter().map(|piece| piece.place).collect();
             used = used | pending.part & !is_cut;
-            end = pending.cut;
+            end = pending.first_cut;
         }
         let whole = table.pieces.iter_mut().enumerate();
         let whole = whole.filter(|(place, _)| used.contains(*place)).map(|(_, piece)| piece);
-        let pieces = whole.chain(cut.iter_mut().map(|(_, piece, _)| piece));
+        let pieces = whole.chain(cut_pieces.iter_mut().map(|piece| &mut piece.behind));
         let lens = pending.iter_mut().map(|pending| &mut pending.arena);
         compact(&mut self.arena, base, pieces, lens)?;
         self.compacted(shared)
@@ -311,8 +326,8 @@ impl Builder {
             if table.rival(&shared.rules, &set, row, &rest, &[])?.is_some() {
                 continue;
             }
-            let (plane, sides) = (*table.plane(row), table.sides(row, &rest));
-            self.divide_small(shared, (&plane, sides), &rest, depth + layers)?;
+            let divided = table.divided(row, &rest);
+            self.divide_small(shared, &divided, &rest, depth + layers)?;
             rest = front | back;
             layers += 1;
         }
@@ -324,10 +339,11 @@ impl Builder {
     fn divide_small(
         &mut self,
         shared: &Shared<'_>,
-        (plane, Sides { front, back, on }): (&PreparedPlane, Sides),
+        divided: &Divided,
         part: &Mask,
         depth: usize,
     ) -> Result<(Option<Mask>, Option<Pending>), Error> {
+        let Sides { front, back, on } = divided.sides;
         let depth = depth + 1;
         shared.budget.check_depth(depth)?;
         let cuts = (front & back).count();
@@ -336,8 +352,8 @@ impl Builder {
             shared.budget.count(cuts)?;
             shared.rules.watch.work(cuts * CUT)?;
         }
-        let Self { small: SmallSet { table, parts, .. }, splitter, arena, .. } = self;
-        let first = parts.cut(shared, (table, splitter, arena), (plane, front & back), part)?;
+        let Self { small: SmallSet { table, stack, .. }, splitter, arena, .. } = self;
+        let first_cut = stack.cut(shared, (table, splitter, arena), divided, part)?;
         self.output.parts.cuts += cuts;
         self.own.clear();
         self.own.extend(on.iter().map(|place| self.small.table.pieces[place]));
@@ -346,7 +362,8 @@ impl Builder {
             count @ 0..=1 => RawChild::Leaf(count as u32),
             _ => RawChild::Node,
         };
-        let node = RawNode { plane: plane.id(), own, front: child(front), back: child(back) };
+        let node =
+            RawNode { plane: divided.plane.id(), own, front: child(front), back: child(back) };
         // Leaves are stored directly after the node's own fragments and front before back.
         if node.front == RawChild::Leaf(1)
             && let Some(place) = front.iter().next()
@@ -358,22 +375,27 @@ impl Builder {
             && let Some(place) = back.iter().next()
         {
             let is_cut = front.contains(place);
-            let piece =
-                if is_cut { self.small.parts.cut[first].1 } else { self.small.table.pieces[place] };
+            let piece = if is_cut {
+                self.small.stack.cut_pieces[first_cut].behind
+            } else {
+                self.small.table.pieces[place]
+            };
             self.store(shared, &piece)?;
         }
         self.output.push_node(node)?;
-        let SmallSet { table, parts, .. } = &mut self.small;
+        let SmallSet { table, stack, .. } = &mut self.small;
         let front = (node.front == RawChild::Node).then_some(front);
         if let Some(front) = &front {
-            parts.update(shared, table, &self.arena, first, front);
+            stack.classify_front(shared, (table, &self.arena), first_cut, front);
         }
-        let back = (node.back == RawChild::Node).then(|| {
-            let arena = self.arena.len();
-            Pending { part: back, depth, arena, cut: first }
+        let back = (node.back == RawChild::Node).then(|| Pending {
+            part: back,
+            depth,
+            arena: self.arena.len(),
+            first_cut,
         });
         if back.is_none() {
-            parts.cut.truncate(first);
+            stack.cut_pieces.truncate(first_cut);
         }
         Ok((front, back))
     }

@@ -25,7 +25,7 @@ const COMPACT: usize = 1 << 13;
 /// The data that all jobs of a build share.
 pub(in crate::build) struct Shared<'a> {
     pub(super) faces: &'a Faces,
-    pub(super) options: &'a BuildOptions,
+    options: &'a BuildOptions,
     pub(super) rules: ChooseContext<'a>,
     pub(super) budget: Budget,
     /// The planes of all faces, if the planes were prepared in advance.

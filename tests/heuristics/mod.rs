@@ -240,8 +240,8 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
     enough!(clean_of_frames > 2000, needed > 10; "{clean_of_frames} {needed}");
 }
 
-/// If every plane cuts, `auto` uses one of the own planes with the least work less the reward, or in larger sets an axis plane
-/// that is no worse: the first of them if many planes cut, otherwise one of four by the cuts that follow. In a
+/// If every plane cuts, `auto` uses one of the own planes with the least work less the reward, or in sets of 64 or
+/// more an axis plane that is no worse: the first of them if many planes cut, otherwise one of four by the cuts that follow. In a
 /// frame it may also use a plane that cuts one or two pieces which cross its own piece.
 #[test]
 fn auto_takes_an_own_plane_of_little_cost_where_every_plane_cuts() {
@@ -280,6 +280,7 @@ fn auto_takes_an_own_plane_of_little_cost_where_every_plane_cuts() {
             let most = sorted[if is_dense { 0 } else { sorted.len().min(4) - 1 }].amount;
             let PlaneKind::Face(face) = node.plane.kind() else {
                 assert!(node.counts.work() <= most + 1e-9, "seed {seed}: {:?}", node.counts);
+                assert!(node.set.len() >= 64, "seed {seed}");
                 axial += 1;
                 return;
             };

@@ -7,7 +7,7 @@ use testkit::snapshot::Snapshot;
 
 #[test]
 fn trees_are_exact_after_trials() {
-    let strategy = (hard::scene(), 1..10_usize);
+    let strategy = (hard::scene(), 2..10_usize);
     let [trees, fewer] = tally(file!(), 192, strategy, |seen: &mut [usize; 2], (scene, planes)| {
         let options = scene.options(Heuristic::Auto);
         let tree = options.clone().with_trials(planes).build(&scene.polygons).map_err(fail)?;
@@ -19,7 +19,7 @@ fn trees_are_exact_after_trials() {
     enough!(trees > 150, fewer > 3; "{trees} {fewer}");
 }
 
-/// The more planes are tried, the fewer fragments: not in every scene, but in these by some percents.
+/// The more planes are tried, the fewer fragments: not in every scene, but in these.
 #[test]
 fn trials_cut_less() {
     let scenes =
@@ -40,15 +40,26 @@ fn trials_cut_less() {
     }
 }
 
+/// Enough triangles for several jobs, small enough to cross only a few others.
 #[test]
 fn trials_give_the_same_tree_on_any_number_of_threads() {
-    let scene = scene::random_triangles(1500, 2);
-    let options = BuildOptions::DEFAULT.with_trials(3);
-    let [one, two, eight] = [1, 2, 8].map(|threads| {
+    let triangles: Vec<[DVec3; 3]> = scene::random_triangles(6000, 2)
+        .polygons()
+        .map(|polygon| {
+            let [a, b, c] = [0, 1, 2].map(|i| polygon.points()[i]);
+            [a, a + 0.2 * (b - a), a + 0.2 * (c - a)]
+        })
+        .collect();
+    let build = |planes: usize, threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        Snapshot::of(&pool.install(|| options.build(scene.polygons())).expect("within budget"))
-    });
-    assert!(one == two && one == eight);
+        let options = BuildOptions::DEFAULT.with_trials(planes);
+        pool.install(|| options.build(&triangles)).expect("within budget")
+    };
+    let one = build(3, 1);
+    assert!(one.len() > 9000 && one.len() < build(0, 1).len(), "{}", one.len());
+    for threads in [2, 8] {
+        assert!(Snapshot::of(&one) == Snapshot::of(&build(3, threads)), "{threads}");
+    }
 }
 
 /// What trials cut does not count.
@@ -65,16 +76,20 @@ fn a_budget_counts_the_tree_alone() {
 }
 
 #[test]
-fn trials_end_when_a_build_is_cancelled() {
+fn trials_report_their_work_and_can_be_cancelled() {
     let scene = scene::random_triangles(400, 3);
-    let options = BuildOptions::DEFAULT.with_trials(1000);
-    for at in [1, 3, 9] {
+    let calls = |planes: usize, most: usize| {
         let mut calls = 0;
+        let options = BuildOptions::DEFAULT.with_trials(planes);
         let tree = options.build_with_progress(scene.polygons(), |_| {
             calls += 1;
-            if calls < at { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            if calls < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
-        assert_eq!(tree.expect_err("cancelled").kind(), ErrorKind::Cancelled);
-        assert_eq!(calls, at);
+        (calls, tree.map_err(|error| error.kind()).err())
+    };
+    let [(few, none), (many, done)] = [0, 64].map(|planes| calls(planes, usize::MAX));
+    assert!(none.is_none() && done.is_none() && many > 4 * few, "{few} {many}");
+    for at in [2 * few, many / 2] {
+        assert_eq!(calls(64, at), (at, Some(ErrorKind::Cancelled)));
     }
 }

@@ -32,7 +32,8 @@ pub(super) struct FreePlanes {
 }
 
 impl FreePlanes {
-    /// Searches for an axis plane of low cost; in small sets, for one that cuts nothing.
+    /// Searches for an axis plane of low cost; in sets of fewer than `clean_below` pieces, only for one that cuts
+    /// nothing.
     pub(super) fn find(
         &mut self,
         set: &Set<'_>,

@@ -36,7 +36,7 @@ pub(super) use given::GivenChooser;
 pub use given::{PieceSet, SplitPlane};
 pub(super) use peel::Peeled;
 pub(crate) use set::Set;
-pub(super) use table::{Chosen, Mask, Row, Sides, Table};
+pub(super) use table::{Chosen, Divided, Mask, Sides, Table};
 pub use tuning::{FrameTuning, Tuning};
 
 /// Chooses partition planes, with reused lists.
@@ -87,13 +87,9 @@ impl Chooser {
                 if let Some(plane) = self.auto.common_plane(set, rules.tuning) {
                     return Ok(Choice::Split(plane));
                 }
-                let free = &mut self.auto.free;
-                let clean = (set.len() < rules.tuning.clean_below)
-                    .then(|| free.clean(set, rules.tuning))
-                    .flatten();
-                let free = match clean {
-                    Some(clean) => Some(clean),
-                    None => free.best(set, rules.watch)?,
+                let free = match self.auto.free.find(set, rules)? {
+                    Some(free) => Some(free),
+                    None => self.auto.free.best(set, rules.watch)?,
                 };
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
@@ -137,6 +133,8 @@ pub(in crate::build) struct ChooseContext<'a> {
     pub(in crate::build) corners: SortedCorners,
     pub(in crate::build) heuristic: Heuristic,
     pub(in crate::build) tuning: &'a Tuning,
+    /// The number of planes for which subtrees are tried.
+    pub(in crate::build) trials: usize,
     /// Reports cancellation. In a cancelled build, any plane may be chosen, so that the build ends soon.
     pub(in crate::build) watch: &'a Watch<'a>,
 }
@@ -148,7 +146,8 @@ impl<'a> ChooseContext<'a> {
         watch: &'a Watch<'a>,
     ) -> Self {
         let (given, corners) = (options.chooser.as_ref(), SortedCorners::default());
-        Self { given, corners, heuristic: options.heuristic, tuning, watch }
+        let BuildOptions { heuristic, trials, .. } = *options;
+        Self { given, corners, heuristic, tuning, trials, watch }
     }
 }
 

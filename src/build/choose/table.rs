@@ -1,10 +1,12 @@
-//! The sides of all pieces of a small set at all planes that may divide the set, as bits.
+//! The sides of all pieces of a small set at the planes of its pieces, as bits. Planes across an axis are searched
+//! where all of these cut.
 //!
 //! Each piece is classified once at each plane. From then on, bits tell how a plane divides any part of the set.
 //! Only the two parts of a cut piece are classified again, at the planes that cut the whole piece: a part of a
 //! piece that is on one side is on the same side.
 
 use std::array::from_fn;
+use std::cmp::Ordering;
 use std::mem::take;
 use std::ops::{BitAnd, BitOr, Not, Range};
 
@@ -13,7 +15,7 @@ use smallvec::SmallVec;
 use super::ChooseContext;
 use super::axis_planes::FreePlanes;
 use super::coplanar::{follow_rivals, larger};
-use super::cost::{Cost, Counts, PricedPlane, work};
+use super::cost::{Cost, Counts, PricedPlane, work_of_one_more};
 use super::peel::arrange;
 use super::set::{LANES, PackedBox, PackedPieces, Reach, Set};
 use super::tuning::Tuning;
@@ -126,9 +128,9 @@ impl Not for Mask {
     }
 }
 
-/// A plane, and the pieces on its sides.
+/// The pieces on the sides of a piece's plane, and the planes that cut the piece.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::build) struct Row {
+struct Row {
     /// The pieces that reach in front of the plane. A piece that is also in `back` is cut by the plane; one that
     /// is in neither lies on the plane.
     front: Mask,
@@ -165,15 +167,6 @@ impl Row {
         (first..first + N).fold(0, |cuts, word| cuts | cut(word)) != 0
     }
 
-    /// The difference between the numbers of pieces on the two sides of a plane that cuts nothing.
-    #[inline]
-    fn imbalance<const N: usize>(&self, mask: &Mask, first: usize) -> u32 {
-        let count = |side: &Mask, word: usize| (side.0[word] & mask.0[word]).count_ones();
-        let [front, back] = [&self.front, &self.back]
-            .map(|side| (first..first + N).map(|word| count(side, word)).sum::<u32>());
-        front.abs_diff(back)
-    }
-
     /// The number of pieces that the plane cuts.
     #[inline]
     fn cuts<const N: usize>(&self, mask: &Mask, first: usize) -> u32 {
@@ -195,6 +188,19 @@ impl Sides {
     pub(in crate::build) fn cuts(&self) -> Mask {
         self.front & self.back
     }
+
+    fn counts(&self) -> Counts {
+        let splits = self.cuts().count() as u32;
+        let [front, back] = [self.front, self.back].map(|side| side.count() as u32 - splits);
+        Counts { front, back, splits }
+    }
+}
+
+/// A plane, and how it divides a part.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::build) struct Divided {
+    pub(in crate::build) plane: PreparedPlane,
+    pub(in crate::build) sides: Sides,
 }
 
 /// The plane that divides a part.
@@ -202,7 +208,8 @@ impl Sides {
 pub(in crate::build) enum Chosen {
     /// The plane of a row.
     Row(usize),
-    Axis(PreparedPlane, Sides),
+    /// A plane across an axis.
+    Axis(Divided),
 }
 
 /// A row whose plane may divide a part.
@@ -216,6 +223,12 @@ struct Priced {
     row: u32,
 }
 
+impl Priced {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.cost.total_cmp(&other.cost).then(self.row.cmp(&other.row))
+    }
+}
+
 /// The pieces of a small set, and their sides at the planes that may divide it.
 #[derive(Debug, Default)]
 pub(in crate::build) struct Table {
@@ -227,6 +240,8 @@ pub(in crate::build) struct Table {
     /// A box around each block of packed pieces.
     boxes: Vec<PackedBox>,
     priced: Vec<Priced>,
+    /// The places, pieces and rows of a part before a trial.
+    saved: Vec<(usize, Piece, Row)>,
     /// The numbers of the set's pieces in the order of the table.
     order: Vec<usize>,
     /// The pieces of a part.
@@ -315,13 +330,19 @@ impl Table {
         &self.planes[row]
     }
 
+    /// The plane of a row, and how it divides a part.
+    pub(in crate::build) fn divided(&self, row: usize, part: &Mask) -> Divided {
+        Divided { plane: self.planes[row], sides: self.sides(row, part) }
+    }
+
     /// How the plane of a row divides a part.
     pub(in crate::build) fn sides(&self, row: usize, part: &Mask) -> Sides {
         let Row { front, back, .. } = self.rows[row];
         Sides { front: front & *part, back: back & *part, on: *part & !front & !back }
     }
 
-    /// The plane that divides a part: a row of lowest cost, or an axis plane.
+    /// Chooses the plane that divides a part: a row without cuts; otherwise an axis plane without cuts; otherwise the
+    /// cheapest of both. Rows come first because their costs are in the table, and an axis plane has to be searched.
     pub(in crate::build) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
@@ -349,60 +370,56 @@ impl Table {
             return Ok(Chosen::Row(row));
         }
         let (free, tuning) = (self.axis_plane(rules, set, part)?, rules.tuning);
-        if let Some(free) = free
-            && !free.cost.cuts
-            && let Some((plane, sides)) = self.divided_by(rules, set, part, free.plane)?
-            && sides.cuts().is_empty()
+        let mut axis = match free {
+            Some(free) if !free.cost.cuts => self.divide(rules, set, part, free.plane)?,
+            _ => None,
+        };
+        if let Some(axis) = axis
+            && axis.sides.cuts().is_empty()
         {
-            return Ok(Chosen::Axis(plane, sides));
+            return Ok(Chosen::Axis(axis));
         }
         let density = self.price::<N>(part, first, tuning);
         let few = if density < tuning.risk_at { tuning.pairs } else { 1 };
         let few = few.clamp(1, self.priced.len());
-        let less = |a: &Priced, b: &Priced| a.cost.total_cmp(&b.cost).then(a.row.cmp(&b.row));
-        self.priced.select_nth_unstable_by(few - 1, less);
-        let axis = match free {
-            Some(free) if free.cost.amount < self.priced[few - 1].cost => {
-                self.divided_by(rules, set, part, free.plane)?
-            }
-            _ => None,
-        };
+        self.priced.select_nth_unstable_by(few - 1, Priced::cmp);
+        if let Some(free) = free
+            && free.cost.cuts
+            && free.cost.amount < self.priced[few - 1].cost
+        {
+            axis = self.divide(rules, set, part, free.plane)?;
+        }
         Ok(self.best_of::<N>(few, part, first, tuning, axis))
     }
 
-    /// The rows of lowest cost, after the choice of a plane; none, if a row cuts nothing.
-    pub(in crate::build) fn cheapest(&mut self, count: usize) -> SmallVec<[usize; 8]> {
-        let less = |a: &Priced, b: &Priced| a.cost.total_cmp(&b.cost).then(a.row.cmp(&b.row));
-        let count = count.min(self.priced.len());
-        if count < self.priced.len() {
-            self.priced.select_nth_unstable_by(count, less);
-        }
-        self.priced[..count].sort_unstable_by(less);
-        self.priced[..count].iter().map(|priced| priced.row as usize).collect()
+    /// The rows of lowest cost that the last choice compared; none if it was a plane without cuts.
+    pub(in crate::build) fn rows_of_low_cost(&mut self, count: usize) -> SmallVec<[usize; 8]> {
+        self.priced.sort_unstable_by(Priced::cmp);
+        self.priced.iter().take(count).map(|priced| priced.row as usize).collect()
     }
 
-    /// Copies the pieces and the rows of a part.
-    pub(in crate::build) fn save(&self, part: &Mask, to: &mut Vec<(usize, Piece, Row)>) {
-        to.clear();
-        to.extend(part.iter().map(|place| (place, self.pieces[place], self.rows[place])));
+    /// Keeps copies of the pieces and the rows of a part.
+    pub(in crate::build) fn save(&mut self, part: &Mask) {
+        self.saved.clear();
+        self.saved.extend(part.iter().map(|place| (place, self.pieces[place], self.rows[place])));
     }
 
-    /// Takes back what was copied.
-    pub(in crate::build) fn restore(&mut self, saved: &[(usize, Piece, Row)]) {
-        for &(place, piece, row) in saved {
+    /// Takes back the copies.
+    pub(in crate::build) fn restore(&mut self) {
+        for &(place, piece, row) in &self.saved {
             (self.pieces[place], self.rows[place]) = (piece, row);
         }
     }
 
-    /// Of the rows whose planes cut nothing, the one that divides a part most evenly.
+    /// Of the rows whose planes cut nothing, the first of lowest cost.
     fn best_without_cuts<const N: usize>(&self, part: &Mask, first: usize) -> Option<usize> {
-        let mut best = (u32::MAX, None);
+        let mut best = (f64::INFINITY, None);
         for row in part.iter() {
             let this = &self.rows[row];
             if !this.cuts_some::<N>(part, first) {
-                let imbalance = this.imbalance::<N>(part, first);
-                if imbalance < best.0 {
-                    best = (imbalance, Some(row));
+                let cost = Cost::of(&this.counts::<N>(part, first).0).amount;
+                if cost < best.0 {
+                    best = (cost, Some(row));
                 }
             }
         }
@@ -412,7 +429,6 @@ impl Table {
     /// Finds the costs of all rows of a part. Returns the mean share of the part that a plane cuts.
     fn price<const N: usize>(&mut self, part: &Mask, first: usize, tuning: &Tuning) -> f64 {
         let (count, mut cuts) = (part.count(), 0);
-        self.priced.clear();
         for row in part.iter() {
             let (counts, risk) = self.rows[row].counts::<N>(part, first);
             cuts += u64::from(counts.splits);
@@ -421,7 +437,7 @@ impl Table {
         }
         let density = cuts as f64 / (count * count) as f64;
         let share = density / (density + tuning.risk_at);
-        let weight = tuning.risk * share * 1.25 * work(count) / count as f64;
+        let weight = tuning.risk * share * work_of_one_more(count);
         for priced in &mut self.priced {
             priced.cost -= weight * f64::from(priced.risk);
         }
@@ -435,7 +451,7 @@ impl Table {
         part: &Mask,
         first: usize,
         tuning: &Tuning,
-        axis: Option<(PreparedPlane, Sides)>,
+        axis: Option<Divided>,
     ) -> Chosen {
         let next = |sides: &Sides| {
             let mut next = 0;
@@ -458,11 +474,10 @@ impl Table {
                 best = this;
             }
         }
-        if let Some((plane, sides)) = axis {
-            let cost = work(sides.front.count()) + work(sides.back.count());
-            let this = (score(sides.cuts().count(), &sides), cost);
-            if this < (best.0, best.1) {
-                return Chosen::Axis(plane, sides);
+        if let Some(axis) = axis {
+            let cost = Cost::of(&axis.sides.counts()).amount;
+            if (score(axis.sides.cuts().count(), &axis.sides), cost) < (best.0, best.1) {
+                return Chosen::Axis(axis);
             }
         }
         Chosen::Row(best.2 as usize)
@@ -481,13 +496,13 @@ impl Table {
     }
 
     /// How any plane divides a part; `None` if it has all pieces on one side, or separates coplanar pieces.
-    fn divided_by(
+    fn divide(
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
         part: &Mask,
         plane: PlaneId,
-    ) -> Result<Option<(PreparedPlane, Sides)>, Error> {
+    ) -> Result<Option<Divided>, Error> {
         let plane = set.prepare(plane);
         let (mut sides, mut near) = (Sides::default(), Mask::default());
         for place in part.iter() {
@@ -503,9 +518,11 @@ impl Table {
             }
             near.set(place, is_near);
         }
-        let divides = sides.front != *part && sides.back != *part;
-        let keeps_pairs = self.rival_of(rules, set, (&plane, sides, near), &[])?.is_none();
-        Ok((divides && keeps_pairs).then_some((plane, sides)))
+        if sides.front == *part || sides.back == *part {
+            return Ok(None);
+        }
+        let rival = self.rival_of(rules, set, (&plane, sides, near), &[])?;
+        Ok(rival.is_none().then_some(Divided { plane, sides }))
     }
 
     /// The row that replaces a row, so that coplanar pieces stay together; see [`settle`](super::settle).
@@ -518,7 +535,7 @@ impl Table {
     ) -> Result<usize, Error> {
         follow_rivals(row, |row, tried| {
             let rival = self.rival(rules, set, row, part, tried)?;
-            Ok((self.pieces.get(row).map(|piece| piece.face), rival))
+            Ok((Some(self.pieces[row].face), rival))
         })
     }
 

@@ -4,9 +4,10 @@
 /// of bins in `axis_planes.rs`.) `benches/ABLATION.md` measures the effect of each.
 #[derive(Clone, Copy, Debug)]
 pub struct Tuning {
-    /// A number of pieces. In sets of fewer pieces, sorting the pieces finds an axis plane that cuts nothing;
-    /// `Auto` tries no other axis planes on such sets. Too large: fewer axis planes to choose from. Too
-    /// small: time, because counting by bins takes longer than sorting.
+    /// A number of pieces. In sets, and parts of tables, of fewer pieces, sorting the pieces finds an axis plane
+    /// that cuts nothing; `Auto` tries no other axis planes on these. (`FreePlanes` counts by bins if there is
+    /// none.) Too large: fewer axis planes to choose from. Too small: time, because counting by bins takes longer
+    /// than sorting.
     pub clean_below: usize,
     /// A set of at most this many pieces is divided by a table (at most 256; see `table.rs`). Too large: time,
     /// because a table has a bit for each pair of pieces. Too small: the planes above tables are chosen with
@@ -19,12 +20,15 @@ pub struct Tuning {
     /// The mean share of a table's pieces that a plane cuts, at which half of `risk` counts. If planes cut
     /// less, how they divide the set matters more, and so do the cuts of the next planes (`pairs`).
     pub risk_at: f64,
-    /// The number of a table's planes that are compared by the cuts of the next planes too. Too large: time.
-    /// Too small: more fragments on scans.
+    /// The number of a table's planes that are compared by the cuts of the next planes too, beside an axis plane
+    /// that costs less than these. Too large: time. Too small: more fragments on scans.
     pub pairs: usize,
     /// The weight of a cut that may follow, if the cut of a piece by the plane itself counts 1. Too large or too
     /// small: more fragments.
     pub next_cuts: f64,
+    /// The most pieces of a set for which subtrees are tried
+    /// ([`BuildOptions::with_trials`](crate::BuildOptions::with_trials)). Too large: time. Too small: more fragments.
+    pub most_tried: usize,
     /// The largest number of own planes tried by heuristics that only score own planes. Too large: time. Too
     /// small: more fragments.
     pub own_planes: usize,
@@ -34,7 +38,8 @@ pub struct Tuning {
     /// whole first sample on one side. Too large: large convex sets are cut. Too small: searches that find
     /// nothing.
     pub one_sided_needed: usize,
-    /// A plane that cuts nothing is used at once if each side keeps at least 1/`uneven` of the pieces. Too
+    /// Of planes found by sorting, and in frames, one that cuts nothing is used at once if each side keeps at
+    /// least 1/`uneven` of the pieces. Too
     /// large: unbalanced trees. Too small: a longer search for little gain.
     pub uneven: usize,
     /// The number of pieces in the first sample that own planes are compared with. A sample of the same size
@@ -66,6 +71,7 @@ impl Tuning {
         risk_at: 0.2,
         pairs: 4,
         next_cuts: 0.05,
+        most_tried: 64,
         own_planes: 96,
         few_own_planes: 16,
         one_sided_needed: 12,
