@@ -1,7 +1,7 @@
 //! Trees whose small sets were divided after trials of subtrees.
 
 use binspace::{BuildOptions, ErrorKind};
-use testkit::judge::{self, judge};
+use testkit::judge::judge;
 use testkit::prelude::*;
 use testkit::snapshot::Snapshot;
 
