@@ -11,16 +11,15 @@
 //! If the coordinates of corners are below 2⁵², of rays below 2⁶⁰ and of the eye below 2⁸¹, the integers of
 //! an edge have 197 bits and of a cut 361 bits. The determinant of three lines has less than 1088 bits.
 
-use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
 
-use smallvec::SmallVec;
-
+use super::adjacency::Adjacency;
 use crate::Error;
 use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{Faces, Int, Plane, PlaneId, PlaneKind, dot};
+use crate::progress::Watch;
 use crate::random::mix;
 use crate::raster::{RayOrigin, Rays, Sheet, edge};
 
@@ -29,137 +28,53 @@ pub(super) const NO_POINT: u32 = u32::MAX;
 /// Faces with more corners than this are not searched for corners that a cut goes through. Too small: more
 /// intersections are computed in integers. Too large: the search takes longer.
 const FEW: usize = 8;
-/// A length, in steps, that exceeds the distance of every tile's border from the origin.
-const FURTHEST: f64 = (1u64 << 50) as f64;
-
 /// The lines of a picture: the edges of all faces that the picture may show, and the cuts of their pieces.
 #[derive(Debug)]
 pub(super) struct LineTable<'t> {
     pub(super) frame: ViewFrame<'t>,
     /// The largest coordinates in the picture, plus one pixel.
     pub(super) reach: [f64; 2],
+    pub(super) adjacency: Adjacency,
     keys: Vec<Key>,
     rounded: Vec<Rounded>,
     /// Points that each line is known to go through; [`NO_POINT`] for a missing point.
     pub(super) through: Vec<[u32; 2]>,
-    /// For each key, the half on which its line is positive.
-    halves: Table<Key, HalfPlane>,
-    /// The numbers of all lines, by position.
-    feet: LineIndex,
+    /// The lines of edges, by the edges' numbers. Only while lines are made.
+    of_edges: Vec<u32>,
+    /// For each cut, the half on which its line is positive.
+    of_cuts: Table<(u32, PlaneId), HalfPlane>,
     /// The lines of cuts, by their positive halves.
     cuts: Table<HalfPlane, ()>,
-    /// The number of the point at each position: equal corners have equal numbers.
-    points: Table<[u64; 3], u32>,
-    /// The numbers of the points to which corners were moved.
-    moved: Table<u32, u32>,
-    /// For each point number, a corner at the point, and the corner's position.
-    corners: Vec<(u32, [f64; 3])>,
 }
+
+/// The number that stands for a line that is not made yet.
+const NO_LINE: u32 = u32::MAX;
 
 impl<'t> LineTable<'t> {
     /// An empty table.
-    pub(super) fn new(frame: ViewFrame<'t>) -> Self {
+    pub(super) fn new(frame: ViewFrame<'t>, watch: &Watch<'_>) -> Result<Self, Error> {
         let reach = frame.rays.size().map(|side| f64::from(side) + 1.0);
-        Self {
+        let adjacency = Adjacency::of(frame.faces, watch)?;
+        let of_edges = vec![NO_LINE; adjacency.edge_count()];
+        Ok(Self {
             frame,
             reach,
+            adjacency,
             keys: vec![],
             rounded: vec![],
             through: vec![],
-            halves: Table::default(),
-            feet: LineIndex::default(),
+            of_edges,
+            of_cuts: Table::default(),
             cuts: Table::default(),
-            points: Table::default(),
-            moved: Table::default(),
-            corners: vec![],
-        }
+        })
     }
 
-    /// The half on which a key's line is positive. A new line is added to the table. `points` are points that
-    /// the line goes through.
-    fn half(&mut self, key: Key, points: [u32; 2]) -> Result<HalfPlane, Error> {
-        if let Some(&half) = self.halves.get(&key) {
-            return Ok(half);
-        }
-        self.new_half(key, self.rounded_of(key), points)
-    }
-
-    /// Like [`half`](Self::half), for a key that is new.
-    fn new_half(
-        &mut self,
-        key: Key,
-        rounded: Rounded,
-        points: [u32; 2],
-    ) -> Result<HalfPlane, Error> {
-        let half = self.half_of_line(key, rounded, points)?;
-        if matches!(key, Key::Cut(..)) {
-            self.cuts.insert(half.positive(), ());
-        }
-        self.halves.insert(key, half);
-        Ok(half)
-    }
-
-    /// The half of a new key's line. Collinear edges, cuts and borders of tiles share one line, for instance
-    /// the edges of walls side by side. Otherwise integers would have to decide repeatedly whether sides of
-    /// cells are collinear.
-    fn half_of_line(
-        &mut self,
-        key: Key,
-        rounded: Rounded,
-        points: [u32; 2],
-    ) -> Result<HalfPlane, Error> {
-        let exact = OnceCell::new();
-        let exact = || exact.get_or_init(|| self.exact_of(key));
-        if let Some(border) = self.near_border(&rounded) {
-            let other = self.exact(border);
-            if compare(exact(), &other).is_eq() {
-                return Ok(border.flipped(is_opposite(exact(), &other)));
-            }
-        }
-        let foot = Foot::of(&rounded, self.reach);
-        match self.feet.search(&foot, |line| compare(&self.exact_of(self.key(line)), exact())) {
-            Ok(line) => {
-                let is_opposite = is_opposite(exact(), &self.exact_of(self.key(line)));
-                self.remember(line, points);
-                Ok(HalfPlane::of(line).flipped(is_opposite))
-            }
-            Err(at) => {
-                let line = self.add(key, rounded, points)?;
-                self.feet.add(&foot, at, line);
-                Ok(HalfPlane::of(line))
-            }
-        }
-    }
-
-    /// The border of tiles on which a line may lie.
-    fn near_border(&self, line: &Rounded) -> Option<HalfPlane> {
-        let [k0, kx, ky] = line.k;
-        let (axis, [along, across]) =
-            if kx.abs() > ky.abs() { (0, [ky, kx]) } else { (1, [kx, ky]) };
-        let steps = -k0 / across * STEPS;
-        let is_near = along.abs() <= self.slope_error(line)
-            && (steps - steps.round()).abs() <= 2.0 * line.error * STEPS
-            && steps.abs() < FURTHEST;
-        is_near.then(|| HalfPlane::beyond(axis, steps.round() as i64))
-    }
-
-    /// Stores points that a line is known to go through, if there is room for them.
-    fn remember(&mut self, line: u32, points: [u32; 2]) {
-        let known = &mut self.through[line as usize];
-        for point in points.into_iter().filter(|&point| point != NO_POINT) {
-            if let Some(free) = known.iter().position(|&known| known == NO_POINT)
-                && !known.contains(&point)
-            {
-                known[free] = point;
-            }
-        }
-    }
-
-    fn add(&mut self, key: Key, rounded: Rounded, through: [u32; 2]) -> Result<u32, Error> {
+    /// Adds a line. `through` are points that the line goes through.
+    fn add(&mut self, key: Key, through: [u32; 2]) -> Result<u32, Error> {
         // Memory for lines runs out before their numbers do.
         let number = u32::try_from(self.keys.len()).map_err(|_| Error::out_of_memory())?;
+        self.rounded.push(self.rounded_of(key));
         self.keys.push(key);
-        self.rounded.push(rounded);
         self.through.push(through);
         Ok(number)
     }
@@ -185,29 +100,20 @@ impl<'t> LineTable<'t> {
             // The upright plane faces outwards if the face's normal has a positive component along the axis.
             let normal = faces.plane(PlaneId::face(face)).normal()[axis];
             let flip = is_positive == (normal > 0);
-            let mut points = [a, b];
-            for point in &mut points {
-                let is_certain = certain.contains(point);
-                *point = match is_certain {
-                    true => self.point(*point, faces.corner(*point)),
-                    false => self.moved(*point),
-                };
-            }
-            return Ok(self.half(Key::Upright(face, k), points)?.flipped(flip));
+            let points = [a, b].map(|corner| match certain.contains(&corner) {
+                true => self.adjacency.point(corner),
+                false => self.adjacency.moved(corner),
+            });
+            return Ok(HalfPlane::of(self.add(Key::Upright(face, k), points)?).flipped(flip));
         }
-        let is_moved = faces.moved_axis(face).is_some();
-        let points = [a, b].map(|corner| match is_moved {
-            true => self.point(corner, faces.given_corner(corner)),
-            false => self.point(corner, faces.corner(corner)),
-        });
+        let [from, to] = [a, b].map(|corner| self.adjacency.point(corner));
+        let edge = self.adjacency.edge(a) as usize;
+        if self.of_edges[edge] == NO_LINE {
+            let points = [from.min(to), from.max(to)];
+            self.of_edges[edge] = self.add(Key::Edge(points), points)?;
+        }
         let is_front = is_positive == self.frame.rays.is_perspective();
-        Ok(self.edge_between(points)?.flipped(is_front))
-    }
-
-    /// The half on which the edge from one point to another is positive.
-    fn edge_between(&mut self, [a, b]: [u32; 2]) -> Result<HalfPlane, Error> {
-        let points = [a.min(b), a.max(b)];
-        Ok(self.half(Key::Edge(points), points)?.flipped(a > b))
+        Ok(HalfPlane::of(self.of_edges[edge]).flipped((from > to) != is_front))
     }
 
     /// The half of a face's cut by a plane on which a piece of the face lies. `behind` is whether the piece
@@ -221,14 +127,16 @@ impl<'t> LineTable<'t> {
     ) -> Result<HalfPlane, Error> {
         let own = PlaneId::face(face);
         let (key, swapped) = match plane.kind() {
-            PlaneKind::Face(other) if other < face => (Key::Cut(other, own), true),
-            _ => (Key::Cut(face, plane), false),
+            PlaneKind::Face(other) if other < face => ((other, own), true),
+            _ => ((face, plane), false),
         };
-        let half = match self.halves.get(&key) {
+        let half = match self.of_cuts.get(&key) {
             Some(&half) => half,
             None => {
                 let through = self.on_cut(face, plane);
-                self.new_half(key, self.rounded_of(key), through)?
+                let half = HalfPlane::of(self.add(Key::Cut(key.0, key.1), through)?);
+                self.of_cuts.insert(key, half);
+                half
             }
         };
         Ok(half.flipped(is_positive == (behind != swapped)))
@@ -236,7 +144,7 @@ impl<'t> LineTable<'t> {
 
     /// Corners of a face that are known to lie on a plane that cuts it: corners shared with the plane's face,
     /// or corners on an axis plane. (Only for faces with few corners, none of which was moved.)
-    fn on_cut(&mut self, face: u32, plane: PlaneId) -> [u32; 2] {
+    fn on_cut(&self, face: u32, plane: PlaneId) -> [u32; 2] {
         let faces = self.frame.faces;
         let own = faces.corners(face);
         let is_exact = |face: u32| faces.moved_axis(face).is_none();
@@ -255,32 +163,9 @@ impl<'t> LineTable<'t> {
         let start = faces.corner_range(face).start as u32;
         let on = (start..).zip(own).filter(|(_, corner)| is_on(corner));
         for (place, (corner, _)) in found.iter_mut().zip(on) {
-            *place = self.point(corner, faces.corner(corner));
+            *place = self.adjacency.point(corner);
         }
         found
-    }
-
-    fn point(&mut self, corner: u32, at: [f64; 3]) -> u32 {
-        let place = at.map(|c| (c + 0.0).to_bits());
-        if let Some(&number) = self.points.get(&place) {
-            return number;
-        }
-        let number = self.corners.len() as u32;
-        self.corners.push((corner, at));
-        self.points.insert(place, number);
-        number
-    }
-
-    /// The number of the point to which a corner off its face's plane was moved. No edge of another face ends
-    /// at this point.
-    fn moved(&mut self, corner: u32) -> u32 {
-        if let Some(&number) = self.moved.get(&corner) {
-            return number;
-        }
-        let number = self.corners.len() as u32;
-        self.corners.push((corner, self.frame.faces.corner(corner)));
-        self.moved.insert(corner, number);
-        number
     }
 
     /// Whether a cut was made along a half's line.
@@ -290,18 +175,15 @@ impl<'t> LineTable<'t> {
 
     /// Whether the cut of two faces, the lower number first, is known to lie on a half's line.
     pub(super) fn is_cut_of(&self, half: HalfPlane, [one, other]: [u32; 2]) -> bool {
-        let cut = self.halves.get(&Key::Cut(one, PlaneId::face(other)));
+        let cut = self.of_cuts.get(&(one, PlaneId::face(other)));
         cut.is_some_and(|cut| cut.line() == half.line())
     }
 
     /// The pairs of faces whose planes meet in a line in which one of the two was cut, and the line.
     pub(super) fn cuts_of_faces(&self) -> impl Iterator<Item = (HalfPlane, [u32; 2])> {
-        self.halves.iter().filter_map(|(key, half)| match *key {
-            Key::Cut(one, plane) => match plane.kind() {
-                PlaneKind::Face(other) => Some((half.positive(), [one, other])),
-                PlaneKind::Axis(..) => None,
-            },
-            _ => None,
+        self.of_cuts.iter().filter_map(|(&(one, plane), half)| match plane.kind() {
+            PlaneKind::Face(other) => Some((half.positive(), [one, other])),
+            PlaneKind::Axis(..) => None,
         })
     }
 
@@ -332,12 +214,12 @@ impl<'t> LineTable<'t> {
 
     /// A line in floats.
     fn rounded_of(&self, key: Key) -> Rounded {
-        key.rounded(&self.frame, &self.corners, self.reach)
+        key.rounded(&self.frame, &self.adjacency, self.reach)
     }
 
     /// A line in integers.
     fn exact_of(&self, key: Key) -> ExactLine {
-        key.exact(&self.frame, &self.corners)
+        key.exact(&self.frame, &self.adjacency)
     }
 }
 
@@ -406,18 +288,19 @@ pub(super) enum Key {
 }
 
 impl Key {
-    /// The line in floats, in a picture whose largest coordinates are `reach`. Point numbers are indices of
-    /// `corners`.
+    /// The line in floats, in a picture whose largest coordinates are `reach`.
     pub(super) fn rounded(
         self,
         frame: &ViewFrame<'_>,
-        corners: &[(u32, [f64; 3])],
+        adjacency: &Adjacency,
         reach: [f64; 2],
     ) -> Rounded {
         let ViewFrame { rays, faces } = frame;
         let sheet = |plane| Sheet::new(rays, faces, plane);
         let (k, error) = match self {
-            Self::Edge(points) => return rounded_edge(frame, ends(corners, points), reach),
+            Self::Edge(points) => {
+                return rounded_edge(frame, ends(frame, adjacency, points), reach);
+            }
             Self::Upright(face, k) => {
                 let ([a, b], axis) = upright(frame, face, k);
                 sheet(PlaneId::face(face)).cut(&Sheet::upright(rays, a, b, axis))
@@ -426,13 +309,13 @@ impl Key {
         };
         // The error is for the picture alone, but lines are evaluated up to a pixel beyond it.
         let rounded = Rounded::scaled(k, 4.0 * error);
-        if rounded.is_fine() { rounded } else { Rounded::new(&self.exact(frame, corners), reach) }
+        if rounded.is_fine() { rounded } else { Rounded::new(&self.exact(frame, adjacency), reach) }
     }
 
     /// The line in integers.
-    pub(super) fn exact(self, frame: &ViewFrame<'_>, corners: &[(u32, [f64; 3])]) -> ExactLine {
+    pub(super) fn exact(self, frame: &ViewFrame<'_>, adjacency: &Adjacency) -> ExactLine {
         match self {
-            Self::Edge(points) => frame.edge(ends(corners, points)),
+            Self::Edge(points) => frame.edge(ends(frame, adjacency, points)),
             Self::Upright(face, k) => {
                 let (ends, axis) = upright(frame, face, k);
                 frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
@@ -450,8 +333,8 @@ pub(super) fn rounded_edge(frame: &ViewFrame<'_>, ends: [[f64; 3]; 2], reach: [f
 }
 
 /// The ends of an edge.
-fn ends(corners: &[(u32, [f64; 3])], points: [u32; 2]) -> [[f64; 3]; 2] {
-    points.map(|point| corners[point as usize].1)
+fn ends(frame: &ViewFrame<'_>, adjacency: &Adjacency, points: [u32; 2]) -> [[f64; 3]; 2] {
+    points.map(|point| adjacency.at(point, frame.faces))
 }
 
 /// The ends of a face's edge `k`, and the axis along which they were moved onto the face's plane.
@@ -504,90 +387,6 @@ impl Hasher for Mixer {
     fn write_u64(&mut self, number: u64) {
         self.0 = (self.0.rotate_left(23) ^ number).wrapping_mul(FACTOR);
     }
-}
-
-/// The point of a line that is nearest to the middle of the picture, and the cosine of twice the line's
-/// angle. Both are the same for both directions of the line. For a line in the picture, point and cosine are
-/// off by less than [`MARGIN`] times [`STEP`].
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Foot {
-    point: [f64; 2],
-    cosine: f64,
-}
-
-/// The numbers of lines, by the places of their feet. Inside a place, lines are sorted exactly, because in a
-/// picture of a scene from very far away all lines are in one place.
-#[derive(Debug, Default)]
-struct LineIndex(Table<Place, SmallVec<[u32; 2]>>);
-
-type Place = [i64; 3];
-
-/// The size of a place, in pixels and in units of the cosine. Too small: feet of one line are in several
-/// places. Too large: more lines are compared in integers.
-const STEP: f64 = 1.0 / (1u64 << 20) as f64;
-/// A foot is also searched in a neighbouring place if the foot is within this share of a step of that place.
-/// (Values of lines in the picture are off by less than 2⁻³¹ pixels, and feet by less than four times as
-/// much: 2⁻⁹ of a step.) Too small: equal lines are not found. Too large: more places are searched.
-const MARGIN: f64 = 1.0 / 256.0;
-
-impl Foot {
-    /// The foot of a line in a picture of this size.
-    pub(super) fn of(line: &Rounded, size: [f64; 2]) -> Self {
-        let [_, kx, ky] = line.k;
-        let middle = size.map(|side| 0.5 * side);
-        let square = kx * kx + ky * ky;
-        let off = line.at(middle) / square;
-        let point = [middle[0] - off * kx, middle[1] - off * ky];
-        Self { point, cosine: (kx * kx - ky * ky) / square }
-    }
-
-    fn numbers(&self) -> [f64; 3] {
-        [self.point[0], self.point[1], self.cosine]
-    }
-
-    fn place(&self) -> Place {
-        self.numbers().map(step_of)
-    }
-
-    /// The places where a line with this foot may be.
-    fn places(&self) -> impl Iterator<Item = Place> {
-        let [xs, ys, cosines] = self.numbers().map(|number| {
-            let [low, high] = [-STEP, STEP].map(|step| step_of(number + step * MARGIN));
-            std::iter::once(low).chain((high != low).then_some(high))
-        });
-        let planes = xs.flat_map(move |x| ys.clone().map(move |y| [x, y]));
-        planes.flat_map(move |[x, y]| cosines.clone().map(move |c| [x, y, c]))
-    }
-}
-
-impl LineIndex {
-    /// Returns the line with this foot that is equal to the sought line; otherwise the place at which to
-    /// [`add`](Self::add) the sought line. `compare` compares a line with the sought line.
-    pub(super) fn search(
-        &self,
-        foot: &Foot,
-        compare: impl Fn(u32) -> Ordering,
-    ) -> Result<u32, usize> {
-        let mut free = 0;
-        for place in foot.places() {
-            let Some(lines) = self.0.get(&place) else { continue };
-            match lines.binary_search_by(|&line| compare(line)) {
-                Ok(at) => return Ok(lines[at]),
-                Err(at) if place == foot.place() => free = at,
-                Err(_) => {}
-            }
-        }
-        Err(free)
-    }
-
-    /// Adds a line that was sought without success.
-    pub(super) fn add(&mut self, foot: &Foot, at: usize, line: u32) {
-        self.0.entry(foot.place()).or_default().insert(at, line);
-    }
-}
-
-fn step_of(number: f64) -> i64 {
-    (number / STEP).floor() as i64
 }
 
 /// The number of steps per pixel. Borders of tiles are at whole steps.
@@ -921,5 +720,6 @@ impl Rounded {
     }
 }
 
+mod merge;
 #[cfg(test)]
 pub(super) mod tests;

@@ -87,7 +87,7 @@ impl<'t> Primitives<'t> {
         let frame = ViewFrame { rays, faces };
         let mut order = Vec::new();
         tree.order(frame.rays.viewpoint()).front_to_back().write_into(&mut order);
-        let lines = LineTable::new(frame);
+        let lines = LineTable::new(frame, watch)?;
         let mut primitives =
             Self { tree, lines, halves: vec![], items: vec![], views: vec![], opacities };
         let all: Vec<u32> = (0..faces.len() as u32).collect();
@@ -142,7 +142,7 @@ impl<'t> Primitives<'t> {
             }
             self.items[item].halves = [start, place(self.halves.len())?];
         }
-        Ok(())
+        self.lines.merge_equal(&mut self.halves, watch)
     }
 
     /// The half-planes that bound a whole face, one for each edge, in order; empty for a face outside the
