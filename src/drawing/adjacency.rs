@@ -62,6 +62,11 @@ impl Adjacency {
         Ok(Self { points, edges, at, edge_count: by_ends.len() })
     }
 
+    /// The positions of all points, by their numbers.
+    pub(super) fn points(&self) -> &[[f64; 3]] {
+        &self.at
+    }
+
     /// The number of the point of a corner, counted over all faces.
     pub(super) fn point(&self, corner: u32) -> u32 {
         self.points[corner as usize]

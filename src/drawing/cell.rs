@@ -63,35 +63,24 @@ impl Cell {
         Self::rectangle(lines, low, high)
     }
 
-    /// The cell with these sides, in order or in reverse order; `None` if its rounded corners do not tell which.
-    /// Sides that follow one another on one line become one side.
-    pub(super) fn between(lines: &LineTable<'_>, halves: &[HalfPlane]) -> Option<Self> {
-        let mut halves: SmallVec<[HalfPlane; 8]> = halves.into();
-        halves.dedup();
-        while halves.len() > 1 && halves.first() == halves.last() {
-            halves.pop();
+    /// The polygon between the edges of a convex face, in order, or in reverse order if the face's corners run
+    /// counter-clockwise in the picture. Edges that follow one another on one line become one side.
+    pub(super) fn of_outline(
+        lines: &LineTable<'_>,
+        outline: &[HalfPlane],
+        is_reversed: bool,
+    ) -> Self {
+        let n = outline.len();
+        let half = |i: usize| outline[if is_reversed { n - 1 - i } else { i }];
+        let mut sides = SmallVec::new();
+        let mut before = half(n - 1);
+        for half in (0..n).map(half) {
+            if half != before {
+                sides.push(Side { half, start: Corner::of(lines, [before, half]) });
+            }
+            before = half;
         }
-        let n = halves.len();
-        let of = |halves: &[HalfPlane]| {
-            let before = halves.iter().cycle().skip(n - 1);
-            let sides = before.zip(halves).map(|(&before, &half)| {
-                let start = Corner::of(lines, [before, half]);
-                Side { half, start }
-            });
-            Self { sides: sides.collect() }
-        };
-        let cell = (n >= 3).then(|| of(&halves))?;
-        let [low, high] = cell.around();
-        let size = (high[0] - low[0]).max(high[1] - low[1]);
-        let radius = cell.sides.iter().map(|side| side.start.radius).fold(0.0, f64::max);
-        let area = cell.double_area();
-        // Each corner is off by its radius, and rounded once more to a vector.
-        let is_certain = area.abs() > 8.0 * n as f64 * size * (radius + 1e-9);
-        if is_certain && area < 0.0 {
-            halves.reverse();
-            return Some(of(&halves));
-        }
-        is_certain.then_some(cell)
+        Self { sides }
     }
 
     /// The part of the cell inside all half-planes; `None` if there is no such part. Appends convex parts of
@@ -335,6 +324,7 @@ mod tests {
     use crate::drawing::lines::HalfPlane;
     use crate::drawing::lines::meeting;
     use crate::drawing::lines::tests::{all_lines, quads};
+    use crate::drawing::quadtree::Tile;
     use crate::progress::Watch;
     use crate::random::SplitMix64;
     use crate::tree::BspTree;
@@ -364,6 +354,7 @@ mod tests {
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.5, [320, 200]).unwrap();
             let primitives = all_lines(&tree, &camera).unwrap();
             let lines = &primitives.lines;
+            let picture = Tile::picture([320, 200]).sides();
             for face in (0..tree.faces().len() as u32).filter(|&face| primitives.sees(face)) {
                 let outline = primitives.outline(face);
                 let watch = Watch::default();
@@ -371,13 +362,11 @@ mod tests {
                 let is_bounded_by_edges = cut
                     .as_ref()
                     .is_some_and(|cut| cut.sides.iter().all(|side| outline.contains(&side.half)));
-                if !primitives.is_inside(face) {
+                let Some(whole) = primitives.whole_in(face, &picture) else {
                     beyond += usize::from(!is_bounded_by_edges);
                     continue;
-                }
-                let (Some(whole), Some(cut)) = (Cell::between(lines, outline), cut) else {
-                    continue;
                 };
+                let cut = cut.expect("a face in the picture");
                 let first = cut.sides.iter().position(|side| side.half == whole.sides[0].half);
                 let mut sides = cut.sides.clone();
                 sides.rotate_left(first.expect("the same sides"));

@@ -250,6 +250,14 @@ impl Faces {
         [corners[k as usize], corners[next]]
     }
 
+    /// The ends of a face's edge `k`: the given corners, before the tolerance moved them.
+    pub(super) fn given_ends(&self, face: u32, k: u32) -> [[f64; 3]; 2] {
+        let range = self.corner_range(face);
+        let corner = range.start + k as usize;
+        let next = if corner + 1 == range.end { range.start } else { corner + 1 };
+        [corner, next].map(|corner| self.given_corner(corner as u32))
+    }
+
     /// The start of a face's edge `k`: the given corner, before the tolerance moved it.
     fn given_start(&self, face: u32, k: u32) -> [f64; 3] {
         self.given_corner(self.corner_range(face).start as u32 + k)

@@ -5,13 +5,13 @@
 //! the uncovered part; otherwise the tile is halved.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::ControlFlow;
 
 use super::cell::Cell;
 use super::primitives::Primitives;
-use super::quadtree::{Candidates, Leaf, SHORT, TINY, TileList, Visible, found_in};
+use super::quadtree::{Candidates, Leaf, TileList, Visible, found_in};
+use super::sheets::MapTile;
 use crate::error::{Error, Kind};
 use crate::progress::{Progress, Watch, one_at_a_time};
 use crate::raster::Rays;
@@ -245,19 +245,26 @@ impl VisibilityMap<'_> {
     }
 
     /// Returns the visible polygons, sorted by index. [`ViewOptions::least_area`] has no effect on this
-    /// list. Each call computes the list again, in O(c log c) for c cells.
+    /// list. Each call computes the list again, in O(n + c) for n polygons and c cells.
     pub fn polygons(&self) -> impl Iterator<Item = VisiblePolygon> {
-        let mut found: BTreeMap<usize, (VisiblePolygon, f64)> = BTreeMap::new();
+        /// The area of a polygon's cells, and the largest cell with its area.
+        #[derive(Clone, Copy)]
+        struct Shown<'m> {
+            area: f64,
+            largest: Option<(MapCell<'m>, f64)>,
+        }
+        let none = Shown { area: 0.0, largest: None };
+        let mut all = vec![none; self.primitives.polygon_count()];
         for cell in self.cells() {
-            let (polygon, area) = (cell.polygon(), cell.area());
-            let new = (VisiblePolygon { polygon, area: 0.0, point: cell.middle() }, area);
-            let (shown, largest) = found.entry(polygon).or_insert(new);
+            let (shown, area) = (&mut all[cell.polygon()], cell.area());
             shown.area += area;
-            if area > *largest {
-                (shown.point, *largest) = (cell.middle(), area);
+            if shown.largest.is_none_or(|(_, largest)| area > largest) {
+                shown.largest = Some((cell, area));
             }
         }
-        found.into_values().map(|(shown, _)| shown)
+        all.into_iter().enumerate().filter_map(|(polygon, Shown { area, largest })| {
+            largest.map(|(cell, _)| VisiblePolygon { polygon, area, point: cell.middle() })
+        })
     }
 
     /// The sorted numbers of the polygons that drawings leave out because their visible area is too small.
@@ -311,18 +318,15 @@ pub(super) fn visible<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<Leaf>, Error> {
-    let halves = |list: &TileList<'p>| {
-        let is_leaf = list.candidates.list.len() <= SHORT || list.is_small(TINY);
-        (!is_leaf).then(|| list.halves(watch)).transpose()
-    };
-    let leaf = |list: &TileList<'p>, found: &mut Vec<Leaf>| {
-        if !list.candidates.list.is_empty() {
-            found.push(Leaf::new(list, watch)?);
+    let halves = |tile: &MapTile<'p>| (!tile.is_settled()).then(|| tile.halves(watch)).transpose();
+    let leaf = |tile: &MapTile<'p>, found: &mut Vec<Leaf>| {
+        if !tile.list.candidates.list.is_empty() {
+            found.push(tile.leaf(watch)?);
         }
         Ok(())
     };
     let items = Candidates::items(primitives, |_| true)?.ending_at_covers();
-    let all = TileList::picture(items, watch)?;
+    let all = MapTile::picture(TileList::picture(items, watch)?, watch)?;
     let parts = found_in(all, halves, leaf, watch)?;
     Ok(parts.into_iter().flatten().collect())
 }

@@ -60,6 +60,8 @@ mod primitives;
 mod quadtree;
 mod regions;
 mod segments;
+mod sheets;
+mod spots;
 mod svg;
 mod tikz;
 mod translucent;

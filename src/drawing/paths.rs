@@ -16,7 +16,7 @@ use super::map::{VisibilityMap, finish_item, sort_by};
 use super::overlaid::{LineRun, MarkerView, Overlaid};
 use super::pairs::pairs;
 use super::primitives::Primitives;
-use super::quadtree::{CUT, Leaf, VISITED, Visible};
+use super::quadtree::{CUT, Leaf, Tile, VISITED, Visible};
 use super::translucent::mixed;
 use crate::memory::place;
 use crate::progress::Watch;
@@ -83,7 +83,7 @@ impl Drawing {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
-        let edges = PolygonEdges::of(primitives, faces);
+        let edges = PolygonEdges::of(primitives, is_clipped, faces);
         for outline in area.outlines(&primitives.lines, watch)? {
             self.outlines.push(self.corners.len() as u32);
             for (i, side) in outline.iter().enumerate() {
@@ -186,17 +186,26 @@ struct PolygonEdges<'s, 't> {
     primitives: &'s Primitives<'t>,
     /// The line, the face, and the number of the edge in the face; sorted.
     edges: SmallVec<[(u64, u32, u32); 8]>,
+    /// Whether the polygon is one face that is drawn whole. Then sides lie on no other edges than its own.
+    is_whole: bool,
 }
 
 impl<'s, 't> PolygonEdges<'s, 't> {
-    fn of(primitives: &'s Primitives<'t>, faces: impl Iterator<Item = u32>) -> Self {
+    fn of(
+        primitives: &'s Primitives<'t>,
+        is_clipped: bool,
+        faces: impl Iterator<Item = u32>,
+    ) -> Self {
+        let mut count = 0;
         let edges_of = |face: u32| {
+            count += 1;
             let numbered = (0..).zip(primitives.outline(face));
             numbered.map(move |(k, half)| (half.line(), face, k))
         };
         let mut edges: SmallVec<_> = faces.flat_map(edges_of).collect();
         edges.sort_unstable();
-        Self { primitives, edges }
+        let is_whole = !is_clipped && count == 1;
+        Self { primitives, edges, is_whole }
     }
 
     /// The polygon's edge along a side; `None` if the polygon has no edge there.
@@ -204,6 +213,10 @@ impl<'s, 't> PolygonEdges<'s, 't> {
         let line = side.half.line();
         let first = self.edges.partition_point(|edge| edge.0 < line);
         let count = self.edges[first..].iter().take_while(|edge| edge.0 == line).count();
+        if self.is_whole && count == 1 {
+            let (_, face, k) = self.edges[first];
+            return self.primitives.lines.frame.faces.outline_edge(face, k);
+        }
         let middle = [0, 1].map(|i: usize| 0.5 * (side.start.at[i] + end[i]));
         let alike = self.edges[first..first + count].iter();
         let offs = alike.map(|&(_, face, k)| (self.off(face, k, middle), face, k));
@@ -241,13 +254,14 @@ pub(super) fn add_face(
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
     let (lines, outline) = (&primitives.lines, primitives.outline(face));
-    if primitives.is_inside(face)
-        && let Some(whole) = Cell::between(lines, outline)
-    {
-        watch.work(outline.len())?;
-        return area.push(&whole.sides);
+    let picture = Tile::picture(lines.frame.rays.size());
+    match primitives.whole_in(face, &picture.sides()) {
+        Some(whole) => {
+            watch.work(outline.len())?;
+            area.push(&whole.sides)
+        }
+        None => add_piece(lines, outline, area, watch),
     }
-    add_piece(lines, outline, area, watch)
 }
 
 /// Adds the part of a convex piece in the picture to an area.

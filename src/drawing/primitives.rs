@@ -4,10 +4,11 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
+use super::cell::{Cell, NOWHERE, Rect, common, is_empty, is_within};
 use super::lines::{HalfPlane, LineTable, ViewFrame};
 use super::map::finish_item;
 use super::quadtree::{Across, LINES, Tile};
+use super::spots::Spot;
 use crate::error::{Error, Kind};
 use crate::exact::PlaneId;
 use crate::memory::place;
@@ -26,7 +27,12 @@ pub(super) struct Item {
     pub(super) around: Rect,
     /// The range of the half-planes that bound the item.
     halves: [u32; 2],
+    /// The previous item of the same face; [`NONE`] for the face's first item.
+    before: u32,
 }
+
+/// The number that stands for no item, or for no face.
+const NONE: u32 = u32::MAX;
 
 /// The view of a face from the camera.
 #[derive(Clone, Copy, Debug)]
@@ -40,8 +46,8 @@ pub(super) struct View {
     pub(super) is_opaque: bool,
     /// Whether the face's edges in the picture go through the given corners.
     pub(super) is_as_given: bool,
-    /// The last item of the face, if any.
-    pub(super) last: u32,
+    /// The last item of the face; [`NONE`] for a face without items.
+    last: u32,
     /// The range of the half-planes that bound the face.
     halves: [u32; 2],
 }
@@ -56,6 +62,9 @@ pub(super) struct Primitives<'t> {
     pub(super) items: Vec<Item>,
     /// The views of all faces, by their numbers.
     pub(super) views: Vec<View>,
+    /// The face on the other side of each shared edge, by the corner where the edge begins; [`NONE`] for other
+    /// edges.
+    neighbours: Vec<u32>,
     /// The opacity of each polygon; empty if all polygons are opaque.
     opacities: Vec<f64>,
 }
@@ -88,18 +97,109 @@ impl<'t> Primitives<'t> {
         let mut order = Vec::new();
         tree.order(frame.rays.viewpoint()).front_to_back().write_into(&mut order);
         let lines = LineTable::new(frame, watch)?;
-        let mut primitives =
-            Self { tree, lines, halves: vec![], items: vec![], views: vec![], opacities };
-        let all: Vec<u32> = (0..faces.len() as u32).collect();
-        let view = |face: u32| Some(primitives.view(face));
-        primitives.views = shared(&all, view, watch)?;
+        let mut primitives = Self {
+            tree,
+            lines,
+            halves: vec![],
+            items: vec![],
+            views: vec![],
+            neighbours: vec![],
+            opacities,
+        };
+        let LineTable { frame: ViewFrame { rays, .. }, adjacency, .. } = &primitives.lines;
+        let points = adjacency.points();
+        let all: Vec<u32> = (0..points.len().max(faces.len()) as u32).collect();
+        let spot = |point: u32| Some(Spot::of(rays, points[point as usize]));
+        let spots = shared(&all[..points.len()], spot, watch)?;
+        let all = &all[..faces.len()];
+        let view = |face: u32| Some(primitives.view(face, &spots));
+        primitives.views = shared(all, view, watch)?;
         let item = |index: u32| primitives.item(&tree.fragment(index));
         primitives.items = shared(&order, item, watch)?;
-        for (number, item) in (0..).zip(&primitives.items) {
-            primitives.views[item.face as usize].last = number;
+        for (number, item) in (0..).zip(&mut primitives.items) {
+            let last = &mut primitives.views[item.face as usize].last;
+            item.before = std::mem::replace(last, number);
         }
         primitives.add_halves(watch)?;
+        primitives.neighbours = primitives.neighbours(watch)?;
         Ok(primitives)
+    }
+
+    /// The face on the other side of each shared edge. Exactly two faces have such an edge. Both are opaque, may
+    /// be visible, lie on opposite sides of the edge in the picture, and end where the edge ends.
+    fn neighbours(&self, watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
+        let LineTable { ref frame, ref adjacency, .. } = self.lines;
+        let faces = frame.faces;
+        watch.work(faces.corner_count())?;
+        // For each edge, the first two faces that have it, each with the corner where the edge begins.
+        let mut owners = vec![[[NONE; 2]; 2]; adjacency.edge_count()];
+        let mut neighbours = vec![NONE; faces.corner_count()];
+        for face in 0..faces.len() as u32 {
+            for corner in faces.corner_range(face) {
+                let corner = corner as u32;
+                let [first, second] = &mut owners[adjacency.edge(corner) as usize];
+                if first[0] == NONE {
+                    *first = [face, corner];
+                } else if second[0] == NONE {
+                    *second = [face, corner];
+                    if self.are_beside([*first, *second]) {
+                        neighbours[first[1] as usize] = face;
+                        neighbours[corner as usize] = first[0];
+                    }
+                } else {
+                    neighbours[first[1] as usize] = NONE;
+                    neighbours[second[1] as usize] = NONE;
+                }
+            }
+        }
+        Ok(neighbours)
+    }
+
+    /// Whether two faces lie beside each other in the picture, on opposite sides of an edge. Each face comes with
+    /// the corner where the edge begins.
+    fn are_beside(&self, sides: [[u32; 2]; 2]) -> bool {
+        let [one, other] = sides.map(|[face, corner]| {
+            let is_bounded = self.views[face as usize].is_opaque && self.is_bounded_in_order(face);
+            let start = self.lines.frame.faces.corner_range(face).start;
+            let half = self.outline(face).get(corner as usize - start);
+            half.filter(|_| is_bounded).copied()
+        });
+        one.is_some() && sides[0][0] != sides[1][0] && one == other.map(|half| half.flipped(true))
+    }
+
+    /// The face on the other side of a face's edge `k`, if the edge is shared.
+    pub(super) fn neighbour(&self, face: u32, k: u32) -> Option<u32> {
+        let start = self.lines.frame.faces.corner_range(face).start;
+        let neighbour = self.neighbours[start + k as usize];
+        (neighbour != NONE).then_some(neighbour)
+    }
+
+    /// A box around the part of a face's edge `k` that is in the picture; `None` if no part is in the picture.
+    pub(super) fn around_edge(&self, face: u32, k: u32) -> Option<Rect> {
+        let faces = self.lines.frame.faces;
+        let [given, moved] = [faces.given_ends(face, k), faces.ends(face, k)];
+        self.around(&[given, moved].concat())
+    }
+
+    /// The items of a face, the last one first.
+    pub(super) fn items_of(&self, face: u32) -> impl Iterator<Item = u32> {
+        let item = |item: u32| (item != NONE).then_some(item);
+        std::iter::successors(item(self.views[face as usize].last), move |&last| {
+            item(self.items[last as usize].before)
+        })
+    }
+
+    /// Whether an item is a face that was not cut.
+    pub(super) fn is_whole(&self, item: u32) -> bool {
+        let Item { face, halves, .. } = self.items[item as usize];
+        halves == self.views[face as usize].halves
+    }
+
+    /// Whether a face's part in the picture, if it is inside the picture, is the polygon of its corners. (If the
+    /// face is drawn with moved corners, edges between them may meet elsewhere.)
+    pub(super) fn is_bounded_in_order(&self, face: u32) -> bool {
+        let View { is_as_given, .. } = self.views[face as usize];
+        is_as_given || self.lines.frame.faces.moved_axis(face).is_none()
     }
 
     /// Makes the lines of all faces and items that may be visible in the picture. Counts as one phase of the
@@ -173,13 +273,14 @@ impl<'t> Primitives<'t> {
                 .all(|&half| self.lines.across(half, sides) == Across::Inside)
     }
 
-    /// Whether a face is certainly inside the picture, and bounded by its edges in order.
-    pub(super) fn is_inside(&self, face: u32) -> bool {
-        let [low, high] = self.views[face as usize].around;
-        let [least, most] = Tile::picture(self.lines.frame.rays.size()).sides();
+    /// The whole face as one cell, if the face is certainly inside a part of the picture, and bounded by its edges
+    /// in order.
+    pub(super) fn whole_in(&self, face: u32, [low, high]: &Rect) -> Option<Cell> {
+        let View { around: [from, to], side, .. } = self.views[face as usize];
         // The box of a face that reaches beyond the picture ends at the picture's border.
-        (0..2).all(|axis| least[axis] < low[axis] && high[axis] < most[axis])
-            && self.lines.frame.faces.moved_axis(face).is_none()
+        let is_inside = (0..2).all(|axis| low[axis] < from[axis] && to[axis] < high[axis]);
+        (is_inside && self.is_bounded_in_order(face))
+            .then(|| Cell::of_outline(&self.lines, self.outline(face), side.is_gt()))
     }
 
     /// The item of a fragment, unless the fragment is outside the picture.
@@ -189,7 +290,13 @@ impl<'t> Primitives<'t> {
         if is_empty(&around) {
             return None;
         }
-        let item = |around| Item { face, fragment: fragment.index(), around, halves: [0; 2] };
+        let item = |around| Item {
+            face,
+            fragment: fragment.index(),
+            around,
+            halves: [0; 2],
+            before: NONE,
+        };
         // If corners were moved, the area bounded by the edges in the picture may reach beyond the fragment.
         if fragment.is_whole() || self.lines.frame.faces.moved_axis(face).is_some() {
             return Some(item(around));
@@ -202,12 +309,19 @@ impl<'t> Primitives<'t> {
     /// picture.
     fn around(&self, vertices: &[[f64; 3]]) -> Option<Rect> {
         let rays = &self.lines.frame.rays;
-        let around = common(&rays.region(vertices)?, &Tile::picture(rays.size()).sides());
+        self.in_picture(&rays.region(vertices)?)
+    }
+
+    /// The part of a box in the picture; `None` if no part is in the picture.
+    fn in_picture(&self, around: &Rect) -> Option<Rect> {
+        let picture = Tile::picture(self.lines.frame.rays.size());
+        let around = common(around, &picture.sides());
         (!is_empty(&around)).then_some(around)
     }
 
-    fn view(&self, face: u32) -> View {
-        let ViewFrame { rays, faces } = &self.lines.frame;
+    /// The view of a face, given the spots of all points.
+    fn view(&self, face: u32, spots: &[Spot]) -> View {
+        let LineTable { frame: ViewFrame { rays, faces }, adjacency, .. } = &self.lines;
         let plane = PlaneId::face(face);
         let certain = Sheet::new(rays, faces, plane).certain_side();
         let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
@@ -217,21 +331,25 @@ impl<'t> Primitives<'t> {
             side,
             is_opaque: false,
             is_as_given: false,
-            last: 0,
+            last: NONE,
             halves: [0; 2],
         };
         let opacity = self.opacity(face);
         if opacity == 0.0 || side.is_eq() || side.is_lt() && rays.is_front_only() {
             return unseen;
         }
-        let moved = match faces.moved_axis(face) {
-            Some(_) => faces.given_corners(face),
-            None => SmallVec::new(),
-        };
-        let corners: SmallVec<[[f64; 3]; 8]> =
-            faces.corners(face).iter().chain(&moved).copied().collect();
-        let Some(around) = self.around(&corners) else { return unseen };
-        let is_as_given = self.lines.frame.is_convex_as_given(face, &moved, side);
+        let points = faces.corner_range(face).map(|corner| adjacency.point(corner as u32));
+        let of_point = |point: u32| spots[point as usize];
+        // The given corners of a face whose corners were moved.
+        let mut given: SmallVec<[[f64; 3]; 8]> = SmallVec::new();
+        if faces.moved_axis(face).is_some() {
+            given.extend(points.clone().map(|point| adjacency.points()[point as usize]));
+        }
+        let both = given.iter().zip(faces.corners(face));
+        let moved = both.filter(|(given, at)| given != at).map(|(_, at)| Spot::of(rays, *at));
+        let hull = Spot::hull(points.map(of_point).chain(moved));
+        let Some(around) = hull.and_then(|hull| self.in_picture(&hull)) else { return unseen };
+        let is_as_given = self.lines.frame.is_convex_as_given(face, &given, side);
         View { around, is_opaque: opacity == 1.0, is_as_given, ..unseen }
     }
 

@@ -16,7 +16,7 @@ use super::cell::{Cell, Rect, are_apart, is_within};
 use super::lines::{HalfPlane, LineTable, STEPS};
 use super::map::finish_item;
 use super::passes::Passing;
-use super::primitives::{FEW_CORNERS, Primitives, View};
+use super::primitives::{FEW_CORNERS, Primitives};
 use crate::memory::place;
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -335,6 +335,27 @@ impl<'p> Candidates<'p> {
         Ok(part)
     }
 
+    /// Whether hidden items of a face may be missing from the list of items. Other items that are missing do not
+    /// reach into the part of the picture.
+    pub(super) fn misses(&self, face: u32) -> bool {
+        self.primitives.items_of(face).next().is_some_and(|last| last > self.limit)
+    }
+
+    /// Whether a point of the part of the picture is in a candidate; `None` if floats do not tell.
+    pub(super) fn is_in(&self, candidate: &Candidate, at: [f64; 2]) -> Option<bool> {
+        let mut is_in = Some(true);
+        for &half in self.halves_of(candidate) {
+            let line = self.primitives.lines.rounded(half);
+            let value = line.at(at);
+            if value.abs() <= line.error {
+                is_in = None;
+            } else if (value > 0.0) == half.is_negative() {
+                return Some(false);
+            }
+        }
+        is_in
+    }
+
     /// Ends the list of items with the last item of an opaque face that covers the box. One or more items of
     /// the face together cover the box.
     fn end_at_face(&mut self, sides: &Rect, watch: &Watch<'_>) -> Result<(), Error> {
@@ -346,10 +367,9 @@ impl<'p> Candidates<'p> {
                 break;
             }
             let face = primitives.face(candidate.number);
-            let View { last, is_opaque, .. } = primitives.views[face as usize];
+            let is_opaque = primitives.views[face as usize].is_opaque;
             // If items of the face are missing from the list, the other items may not cover the box.
-            let is_in_list = last <= self.limit;
-            if !is_opaque || !is_in_list || tried.contains(&face) {
+            if !is_opaque || self.misses(face) || tried.contains(&face) {
                 continue;
             }
             tried.push(face);
@@ -385,6 +405,11 @@ impl<'p> TileList<'p> {
     /// The number of candidates that do not cover the tile.
     pub(super) fn open(&self) -> usize {
         self.candidates.list.iter().filter(|candidate| !candidate.covers()).count()
+    }
+
+    /// Whether the tile's candidates are few, or the tile cannot be divided into smaller ones with fewer.
+    pub(super) fn is_short(&self) -> bool {
+        self.candidates.list.len() <= SHORT || self.is_small(TINY)
     }
 
     /// Whether halving the tile is useless, or the tile is no larger than `least` steps.

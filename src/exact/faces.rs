@@ -227,12 +227,6 @@ impl Faces {
         }
     }
 
-    /// The corners of a face before some corners were moved onto its plane.
-    #[cfg(feature = "drawing")]
-    pub(crate) fn given_corners(&self, face: u32) -> smallvec::SmallVec<[[f64; 3]; 8]> {
-        self.corner_range(face).map(|corner| self.given_corner(corner as u32)).collect()
-    }
-
     /// Returns the three corners, counted over all faces, that define a face's plane.
     #[doc(hidden)]
     #[inline]

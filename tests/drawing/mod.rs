@@ -6,6 +6,7 @@ mod bent;
 mod between;
 mod borders;
 mod coincidences;
+mod connected;
 mod crossings;
 mod extremes;
 mod fans;
