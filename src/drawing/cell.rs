@@ -138,10 +138,14 @@ impl Cell {
             if !signs.contains(&Ordering::Greater) {
                 return Ok(None);
             }
-            if let Some(outside) = &mut outside {
-                outside.push(cell.part(lines, half.flipped(true), &signs, Ordering::Less));
-            }
-            part = Some(cell.part(lines, half, &signs, Ordering::Greater));
+            part = Some(match &mut outside {
+                Some(outside) => {
+                    let [inside, rest] = cell.parts(lines, half, &signs);
+                    outside.push(rest);
+                    inside
+                }
+                None => cell.part(lines, half, &signs, Ordering::Greater),
+            });
         }
         Ok(Some(part))
     }
@@ -212,23 +216,67 @@ impl Cell {
         signs: &[Ordering],
         keep: Ordering,
     ) -> Self {
+        let range = self.range(signs, keep);
+        let ends = [false, true]
+            .map(|is_end| self.end(lines, half, signs, range[usize::from(is_end)], is_end));
+        self.cut(half, range, ends)
+    }
+
+    /// The parts of the cell inside and outside of a half-plane that divides the cell.
+    pub(super) fn parts(
+        &self,
+        lines: &LineTable<'_>,
+        half: HalfPlane,
+        signs: &[Ordering],
+    ) -> [Self; 2] {
+        let inside = self.range(signs, Ordering::Greater);
+        let [start, end] = [false, true]
+            .map(|is_end| self.end(lines, half, signs, inside[usize::from(is_end)], is_end));
+        let outside = self.range(signs, Ordering::Less);
+        // Where the outline leaves one part, it enters the other part, at the same corner.
+        [self.cut(half, inside, [start, end]), self.cut(half.flipped(true), outside, [end, start])]
+    }
+
+    /// The first and the last side of the part whose corners have the sign `keep`. The cell is convex, so its
+    /// outline enters the part once and leaves it once.
+    fn range(&self, signs: &[Ordering], keep: Ordering) -> [usize; 2] {
         let n = self.sides.len();
         let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
-        // The cell is convex, so its outline enters the part once and leaves it once.
         let enters = |&i: &usize| signs[i] != keep && signs[next(i)] == keep;
-        let mut i = (0..n).find(enters).unwrap_or(0);
-        let Side { half: entry, start } = self.sides[i];
-        let on_line = signs[i].is_eq();
-        let start = if on_line { start } else { Corner::of(lines, [half, entry]) };
-        let mut sides = SmallVec::new();
-        sides.push(Side { half: entry, start });
-        while signs[next(i)] == keep {
-            i = next(i);
-            sides.push(self.sides[i]);
+        let first = (0..n).find(enters).unwrap_or(0);
+        let mut last = first;
+        while signs[next(last)] == keep {
+            last = next(last);
         }
-        let Side { start, .. } = self.sides[next(i)];
-        let on_line = signs[next(i)].is_eq();
-        let end = if on_line { start } else { Corner::of(lines, [self.sides[i].half, half]) };
+        [first, last]
+    }
+
+    /// The corner where side `i` meets a line, at the side's start or end.
+    fn end(
+        &self,
+        lines: &LineTable<'_>,
+        half: HalfPlane,
+        signs: &[Ordering],
+        i: usize,
+        is_end: bool,
+    ) -> Corner {
+        let corner = if is_end && i + 1 == self.sides.len() { 0 } else { i + usize::from(is_end) };
+        match signs[corner] {
+            Ordering::Equal => self.sides[corner].start,
+            _ => Corner::of(lines, [self.sides[i].half, half]),
+        }
+    }
+
+    /// The sides in a range, between new ends, with a new side along a line.
+    fn cut(&self, half: HalfPlane, [first, last]: [usize; 2], [start, end]: [Corner; 2]) -> Self {
+        let mut sides = SmallVec::new();
+        sides.push(Side { half: self.sides[first].half, start });
+        if first < last {
+            sides.extend_from_slice(&self.sides[first + 1..=last]);
+        } else if last < first {
+            sides.extend_from_slice(&self.sides[first + 1..]);
+            sides.extend_from_slice(&self.sides[..=last]);
+        }
         sides.push(Side { half, start: end });
         Self { sides }
     }

@@ -1,8 +1,9 @@
 //! The visibility map: the visible parts of polygons in a picture, found tile by tile.
 //!
 //! A tile has a list of the pieces that may be visible in it, front to back. The list ends with the first
-//! piece that covers the tile. If the list is short, the tile is a leaf, and each piece is subtracted from
-//! the uncovered part; otherwise the tile is halved.
+//! piece that covers the tile. If one sheet of connected faces is visible in the tile, the tile is a leaf, and
+//! nothing is subtracted. If the list is short, the tile is a leaf, and each piece is subtracted from the
+//! uncovered part. Otherwise the tile is halved.
 
 use std::cmp::Ordering;
 use std::fmt;

@@ -448,9 +448,12 @@ impl ViewFrame<'_> {
                 value > 8.0 * f64::EPSILON * sum(size, ray.map(f64::abs))
             };
         let at = |k: usize| given[if k < n { k } else { k - n }];
+        // In a quad, an edge and the corner before it are also the previous edge and the corner after that edge.
+        let others = if n == 4 { 1 } else { n.saturating_sub(2) };
         (0..n).all(|k| {
             let (a, ray) = (at(k), from_eye(at(k)));
-            (k + 2..k + n).all(|i| is_certain(normal_of([a, at(k + 1), at(i)]), ray, side.is_gt()))
+            (k + 2..k + 2 + others)
+                .all(|i| is_certain(normal_of([a, at(k + 1), at(i)]), ray, side.is_gt()))
         }) && (!rays.is_perspective() || {
             let normal = normal_of(faces.triangle(face));
             given.iter().all(|&corner| is_certain(normal, from_eye(corner), side.is_gt()))

@@ -312,9 +312,13 @@ impl<'p> Candidates<'p> {
             if are_apart(sides, around) {
                 continue;
             }
-            let (start, is_inside) = (part.halves.len(), is_within(around, sides));
-            for &half in self.halves_of(candidate) {
-                match if is_inside { Across::Maybe } else { lines.across(half, sides) } {
+            let (start, halves) = (part.halves.len(), self.halves_of(candidate));
+            if is_within(around, sides) {
+                part.push(number, halves)?;
+                continue;
+            }
+            for &half in halves {
+                match lines.across(half, sides) {
                     Across::Inside => {}
                     Across::Maybe => part.halves.push(half),
                     Across::Outside => {
@@ -458,7 +462,8 @@ impl Leaf {
         let primitives = candidates.primitives;
         let mut cells = Vec::new();
         if candidates.list.len() <= SHORT {
-            let mut area = OpenArea::new(tile.cell(&primitives.lines));
+            let count = candidates.list.len();
+            let mut area = OpenArea::new(tile.cell(&primitives.lines), count);
             for candidate in &candidates.list {
                 watch.work(area.open.len() * CUT)?;
                 let (item, halves) = (candidate.number, candidates.halves_of(candidate));
@@ -614,7 +619,7 @@ impl<'l, 'p> SubTile<'l, 'p> {
     /// Computes the visible parts of the pieces.
     fn visible(self, watch: &Watch<'_>) -> Result<Vec<Visible>, Error> {
         let primitives = self.candidates.primitives;
-        let mut area = OpenArea::new(self.cell);
+        let mut area = OpenArea::new(self.cell, self.pieces.len());
         for Visible { item, cell } in self.pieces {
             watch.work(area.open.len() * CUT)?;
             let halves: SmallVec<[HalfPlane; 8]> =
@@ -645,9 +650,13 @@ struct OpenArea {
 }
 
 impl OpenArea {
-    fn new(cell: Cell) -> Self {
-        let boxes = vec![cell.around()];
-        Self { open: vec![cell], boxes, cells: vec![], outside: vec![], left: vec![] }
+    /// An uncovered cell, from which some items will be subtracted.
+    fn new(cell: Cell, items: usize) -> Self {
+        let (mut open, mut boxes) = (Vec::with_capacity(SHORT), Vec::with_capacity(SHORT));
+        boxes.push(cell.around());
+        open.push(cell);
+        let (outside, left) = (Vec::with_capacity(FEW_CORNERS), Vec::with_capacity(FEW_CORNERS));
+        Self { open, boxes, cells: Vec::with_capacity(items), outside, left }
     }
 
     /// Adds the visible parts of an item with this bounding box. An opaque item is subtracted from the open
