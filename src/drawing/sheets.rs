@@ -157,20 +157,18 @@ impl TileList<'_> {
         Ok(Found::Sheet(sheet))
     }
 
-    /// Whether a point of the tile certainly lies in exactly one item of a sheet.
+    /// Whether the first sample that floats decide lies in exactly one item of a sheet.
     fn shows_once(&self, is_in_sheet: &[bool]) -> bool {
         let [low, high] = self.tile.sides();
-        SAMPLES.iter().any(|share| {
+        let count = |share: &[f64; 2]| {
             let at = [0, 1].map(|axis| low[axis] + share[axis] * (high[axis] - low[axis]));
             let mut count = 0;
             for (candidate, _) in self.candidates.list.iter().zip(is_in_sheet).filter(|c| *c.1) {
-                match self.candidates.is_in(candidate, at) {
-                    Some(is_in) => count += usize::from(is_in),
-                    None => return false,
-                }
+                count += usize::from(self.candidates.is_in(candidate, at)?);
             }
-            count == 1
-        })
+            Some(count)
+        };
+        SAMPLES.iter().find_map(count) == Some(1)
     }
 
     /// Whether each item outside a sheet is certainly behind all items of the sheet that it overlaps in the tile.

@@ -120,6 +120,37 @@ fn a_ramp_that_leans_on_shared_edges() {
     }
 }
 
+/// Below a floor, a trough has both its upper edges in common with the floor. In every second row, the trough
+/// comes first.
+#[test]
+fn edges_that_three_faces_share() {
+    let mut patches = floor(0, |square| square[0] < 1 || square[0] >= 3);
+    for y in 0..8 {
+        let patch = |x: i64, size: i64, slope: i64, height: i64| {
+            let [low, high] = [[x, y], [x + size, y + 1]];
+            Patch { low, high, slope, height, opacity: 1.0 }
+        };
+        let trough = [patch(1, 1, -1, 1), patch(2, 1, 1, -3)];
+        let cover = patch(1, 2, 0, 0);
+        match y % 2 {
+            0 => patches.extend([trough[0], trough[1], cover]),
+            _ => patches.extend([cover, trough[0], trough[1]]),
+        }
+    }
+    check("a trough", &patches, &[]);
+}
+
+/// A slope goes through a floor, along edges of the slope. The floor hides the lower half of the slope.
+#[test]
+fn a_slope_through_a_floor_that_hides_its_lower_half() {
+    let mut patches = vec![Patch { high: [8, 8], ..Patch::level([0, 0], 0) }];
+    for (y, [from, to]) in (0..8).flat_map(|y| [(y, [3, 8]), (y, [0, 3])]) {
+        let [low, high] = [[from, y], [to, y + 1]];
+        patches.push(Patch { low, high, slope: 1, height: -3, opacity: 1.0 });
+    }
+    check("a slope", &patches, &[]);
+}
+
 #[test]
 fn a_floor_that_is_folded_back_over_itself() {
     let mut patches = floor(0, |square| square[0] < 5);
@@ -150,6 +181,8 @@ fn squares_that_are_translucent() {
     check("glass in a floor", &patches, &[]);
     patches.push(Patch { low: [1, 1], high: [6, 5], opacity: 0.25, ..Patch::level([1, 1], 2) });
     check("glass over a floor", &patches, &[]);
+    patches.push(Patch { high: [8, 8], opacity: 0.25, ..Patch::level([0, 0], 3) });
+    check("glass over everything", &patches, &[]);
 }
 
 /// Surfaces of bent quads, whose corners are moved a little or far, seen from around and from inside.
