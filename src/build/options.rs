@@ -109,7 +109,8 @@ impl BuildOptions {
     ///
     /// Where every polygon's plane cuts a set of at most 64 pieces, [`Heuristic::Auto`] builds the subtrees of this many
     /// planes of low cost, and uses the plane whose subtree has the fewest cuts. With 0 and 1 it makes no trials. A node
-    /// of such a set takes the time of up to `planes` subtrees, which make no trials themselves.
+    /// of such a set takes the time of up to `planes` subtrees, which make no trials themselves; a subtree with twice as
+    /// many cuts as the set has pieces is not built to its end.
     ///
     /// The tree is the same with any number of threads. Trials do not count towards `max_fragments`, and they end if the
     /// build is cancelled. A [`FrameBuilder`](crate::FrameBuilder) makes trials too; other heuristics and builds with a

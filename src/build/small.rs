@@ -201,7 +201,11 @@ impl Builder {
         if rows.is_empty() {
             return Ok(chosen);
         }
-        let mut best = (self.cuts_after(shared, part, &chosen, usize::MAX)?, chosen);
+        let most = part.count() * shared.rules.tuning.most_cuts;
+        let mut best = (self.cuts_after(shared, part, &chosen, most)?, chosen);
+        if best.0 == most {
+            return Ok(chosen);
+        }
         let mut tried: SmallVec<[PlaneId; 8]> = smallvec![chosen.plane.id()];
         for row in rows {
             let this = self.settled(shared, part, Chosen::Row(row))?;

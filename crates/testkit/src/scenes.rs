@@ -21,14 +21,16 @@ pub fn scene_of(
     scene
 }
 
-/// Returns a tree by each heuristic, and one of a frame, all with their names.
+/// Returns a tree by each heuristic, one after trials, and one of a frame, all with their names.
 pub fn trees<P: Polygon>(polygons: &[P], options: BuildOptions) -> Vec<(String, BspTree)> {
     let frame = FrameBuilder::new(options.clone()).build(polygons).expect("a frame").clone();
     let tree = |&heuristic: &Heuristic| {
         let tree = options.clone().with_heuristic(heuristic).build(polygons).expect("a tree");
         (heuristic.to_string(), tree)
     };
-    Heuristic::ALL.iter().map(tree).chain([("frame".to_owned(), frame)]).collect()
+    let tried = options.clone().with_trials(4).build(polygons).expect("a tree");
+    let others = [("trials".to_owned(), tried), ("frame".to_owned(), frame)];
+    Heuristic::ALL.iter().map(tree).chain(others).collect()
 }
 
 /// Triangles around points whose coordinates are between two numbers, with corners up to `edge` off these

@@ -29,6 +29,9 @@ pub struct Tuning {
     /// The most pieces of a set for which subtrees are tried
     /// ([`BuildOptions::with_trials`](crate::BuildOptions::with_trials)). Too large: time. Too small: more fragments.
     pub most_tried: usize,
+    /// The number of cuts, for each piece of a set, from which on no other planes are tried. Too large: time, where all
+    /// planes cut much. Too small: more fragments.
+    pub most_cuts: usize,
     /// The largest number of own planes tried by heuristics that only score own planes. Too large: time. Too
     /// small: more fragments.
     pub own_planes: usize,
@@ -72,6 +75,7 @@ impl Tuning {
         pairs: 4,
         next_cuts: 0.05,
         most_tried: 64,
+        most_cuts: 2,
         own_planes: 96,
         few_own_planes: 16,
         one_sided_needed: 12,

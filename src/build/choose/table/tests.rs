@@ -57,6 +57,20 @@ fn choose(table: &mut Table, set: &Set<'_>, part: &Mask, tuning: &Tuning) -> Cho
     table.choose(&ChooseContext::new(&options, tuning, &watch), set, part).unwrap()
 }
 
+/// Whether a plane at the end of a set does not count as dividing it, unless pieces lie on the plane.
+fn all_on_one_side(table: &mut Table, set: &Set<'_>, part: &Mask, tuning: &Tuning) -> bool {
+    let (options, watch) = (BuildOptions::DEFAULT, Watch::default());
+    let rules = ChooseContext::new(&options, tuning, &watch);
+    let starts = || set.pieces.iter().filter(|piece| piece.min_is_corner(0));
+    let Some(first) = starts().min_by(|a, b| a.min[0].total_cmp(&b.min[0])) else { return true };
+    if first.min[0] > set.min[0] {
+        return true;
+    }
+    let corner = first.corner_at(set.faces, 0, first.min[0]).expect("a corner");
+    let divided = table.divide(&rules, set, part, PlaneId::axis(0, corner)).unwrap();
+    divided.is_none_or(|divided| !divided.sides.on.is_empty())
+}
+
 /// Asserts that all sides of a part are those of classification. Returns how often each side was found.
 fn assert_sides(table: &Table, set: &Set<'_>, part: &Mask) -> [usize; 4] {
     let mut found = [0; 4];
@@ -157,6 +171,7 @@ fn the_best_plane_costs_least() {
     for_each_set(|fixture| {
         let set = fixture.set();
         let part = table.fill(&set);
+        assert!(all_on_one_side(&mut table, &set, &part, &tuning));
         let cost = |sides: Sides| Cost::of(&sides.counts());
         let least = part.iter().map(|row| cost(table.sides(row, &part))).min_by(Cost::cmp).unwrap();
         let chosen = choose(&mut table, &set, &part, &tuning);
@@ -171,6 +186,9 @@ fn the_best_plane_costs_least() {
                 assert_eq!(cost(table.sides(row, &part)), least);
                 let worse = |axis: Divided| !cost(axis.sides).is_less(&least);
                 assert!(!least.cuts || axis.is_none_or(worse));
+                let rows = table.rows_of_low_cost(4);
+                assert_eq!(rows.is_empty(), !least.cuts);
+                assert!(rows.iter().all(|&row| part.contains(row)));
                 *(if least.cuts { &mut cutting } else { &mut clean }) += 1;
             }
             Chosen::Axis(Divided { plane, sides }) => {
