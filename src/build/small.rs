@@ -392,12 +392,9 @@ impl Builder {
         if let Some(front) = &front {
             stack.classify_front(shared, (table, &self.arena), first_cut, front);
         }
-        let back = (node.back == RawChild::Node).then(|| Pending {
-            part: back,
-            depth,
-            arena: self.arena.len(),
-            first_cut,
-        });
+        let arena = self.arena.len();
+        let pending = Pending { part: back, depth, arena, first_cut };
+        let back = (node.back == RawChild::Node).then_some(pending);
         if back.is_none() {
             stack.cut_pieces.truncate(first_cut);
         }
