@@ -5,8 +5,8 @@ use std::collections::HashMap;
 
 use crate::Error;
 
-/// Makes room for `more` items, and for as many again as a short list has, or for an eighth of a long one. (`Vec` itself
-/// doubles its capacity, which would leave the longest lists half empty.)
+/// Makes room for `more` items, plus an eighth of the list. (`Vec` itself doubles its capacity, which would
+/// leave the largest lists half empty.)
 ///
 /// # Errors
 ///
@@ -65,19 +65,15 @@ pub(crate) fn empty<K, V>(table: &mut HashMap<K, V>) {
     }
 }
 
-/// Lists of fewer bytes double. Too small: lists that grow are copied more often. Too large: spare memory.
-const SMALL_LIST: usize = 1 << 18;
-
 #[cold]
 fn grow<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
-    let bytes = size_of_val(list.as_slice());
-    let spare = if bytes < SMALL_LIST { list.len() } else { list.len() / 8 }.max(64);
+    let spare = (list.len() / 8).max(64);
     list.try_reserve_exact(more.saturating_add(spare)).map_err(|_| Error::out_of_memory())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{HashMap, ROOM, SMALL, SMALL_LIST, empty, reserve};
+    use super::{HashMap, ROOM, SMALL, empty, reserve};
 
     #[test]
     fn lack_of_memory_is_an_error() {
@@ -91,19 +87,6 @@ mod tests {
         reserve(&mut list, 1000).expect("8 kB");
         assert!((1003..2000).contains(&list.capacity()));
         assert_eq!(list, [0; 3]);
-    }
-
-    #[test]
-    fn short_lists_double_and_long_ones_grow_by_an_eighth() {
-        for (len, expected) in [
-            (1000, 2001),
-            (SMALL_LIST - 1, 2 * SMALL_LIST - 1),
-            (8 * SMALL_LIST, 9 * SMALL_LIST + 1),
-        ] {
-            let mut list = vec![0u8; len];
-            reserve(&mut list, 1).expect("2 MB");
-            assert_eq!(list.capacity(), expected, "{len}");
-        }
     }
 
     /// Sets of every size, and a set that is far larger than all others.
