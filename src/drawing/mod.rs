@@ -61,7 +61,6 @@ mod quadtree;
 mod regions;
 mod segments;
 mod sheets;
-mod spots;
 mod svg;
 mod tikz;
 mod translucent;

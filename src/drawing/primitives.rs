@@ -8,13 +8,12 @@ use super::cell::{Cell, NOWHERE, Rect, common, is_empty, is_within};
 use super::lines::{HalfPlane, LineTable, ViewFrame};
 use super::map::finish_item;
 use super::quadtree::{Across, LINES, Tile};
-use super::spots::Spot;
 use crate::error::{Error, Kind};
 use crate::exact::PlaneId;
 use crate::memory::place;
 use crate::parallel_map;
 use crate::progress::Watch;
-use crate::raster::{RayOrigin, Rays, Sheet, normal_of};
+use crate::raster::{Projected, RayOrigin, Rays, Sheet, normal_of};
 use crate::tree::{BspTree, Fragment};
 
 /// A piece of a face that may be visible.
@@ -109,10 +108,10 @@ impl<'t> Primitives<'t> {
         let LineTable { frame: ViewFrame { rays, .. }, adjacency, .. } = &primitives.lines;
         let points = adjacency.points();
         let all: Vec<u32> = (0..points.len().max(faces.len()) as u32).collect();
-        let spot = |point: u32| Some(Spot::of(rays, points[point as usize]));
-        let spots = shared(&all[..points.len()], spot, watch)?;
+        let project = |point: u32| Some(rays.projected(points[point as usize]));
+        let projected = shared(&all[..points.len()], project, watch)?;
         let all = &all[..faces.len()];
-        let view = |face: u32| Some(primitives.view(face, &spots));
+        let view = |face: u32| Some(primitives.view(face, &projected));
         primitives.views = shared(all, view, watch)?;
         let item = |index: u32| primitives.item(&tree.fragment(index));
         primitives.items = shared(&order, item, watch)?;
@@ -309,7 +308,8 @@ impl<'t> Primitives<'t> {
     /// picture.
     fn around(&self, vertices: &[[f64; 3]]) -> Option<Rect> {
         let rays = &self.lines.frame.rays;
-        self.in_picture(&rays.region(vertices)?)
+        let vertices = vertices.iter().map(|&vertex| rays.projected(vertex));
+        self.in_picture(&Projected::region(vertices)?)
     }
 
     /// The part of a box in the picture; `None` if no part is in the picture.
@@ -319,8 +319,8 @@ impl<'t> Primitives<'t> {
         (!is_empty(&around)).then_some(around)
     }
 
-    /// The view of a face, given the spots of all points.
-    fn view(&self, face: u32, spots: &[Spot]) -> View {
+    /// The view of a face, given the places of all points in the picture.
+    fn view(&self, face: u32, projected: &[Projected]) -> View {
         let LineTable { frame: ViewFrame { rays, faces }, adjacency, .. } = &self.lines;
         let plane = PlaneId::face(face);
         let certain = Sheet::new(rays, faces, plane).certain_side();
@@ -339,15 +339,15 @@ impl<'t> Primitives<'t> {
             return unseen;
         }
         let points = faces.corner_range(face).map(|corner| adjacency.point(corner as u32));
-        let of_point = |point: u32| spots[point as usize];
+        let of_point = |point: u32| projected[point as usize];
         // The given corners of a face whose corners were moved.
         let mut given: SmallVec<[[f64; 3]; 8]> = SmallVec::new();
         if faces.moved_axis(face).is_some() {
             given.extend(points.clone().map(|point| adjacency.points()[point as usize]));
         }
         let both = given.iter().zip(faces.corners(face));
-        let moved = both.filter(|(given, at)| given != at).map(|(_, at)| Spot::of(rays, *at));
-        let hull = Spot::hull(points.map(of_point).chain(moved));
+        let moved = both.filter(|(given, at)| given != at).map(|(_, at)| rays.projected(*at));
+        let hull = Projected::region(points.map(of_point).chain(moved));
         let Some(around) = hull.and_then(|hull| self.in_picture(&hull)) else { return unseen };
         let is_as_given = self.lines.frame.is_convex_as_given(face, &given, side);
         View { around, is_opaque: opacity == 1.0, is_as_given, ..unseen }

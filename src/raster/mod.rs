@@ -32,10 +32,10 @@ pub(crate) use judge::{Layers, compare_by, is_open, zbuffer_layers};
 pub(crate) use line::{Sheet, edge, normal_of};
 pub(crate) use painter::for_each_shaded;
 pub use painter::{Image, NONE, blend, brightness, colour_of, depth_map, difference, picture};
-#[cfg(feature = "drawing")]
-pub(crate) use rays::RayOrigin;
 pub use rays::Rays;
 pub(crate) use rays::Window;
+#[cfg(feature = "drawing")]
+pub(crate) use rays::{Projected, RayOrigin};
 
 /// Items for painters of other orders, which `crates/evidence` compares with the tree's order. These painters
 /// name faces on the lattice, which are not part of the public interface.

@@ -361,6 +361,42 @@ const VERTEX_ERROR: f64 = 2.5;
 /// Margin around a polygon's projection, in pixels, for the rounding of the projection.
 const MARGIN: f64 = 1.0 / 256.0;
 
+/// The place of a point in the picture, with bounds on its error.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Projected {
+    /// A box around the point, if the point is ahead of the eye.
+    around: [[f64; 2]; 2],
+    /// For the left, right, upper and lower side of the picture, whether the point is certainly beyond it.
+    is_beyond: [bool; 4],
+    is_ahead: bool,
+    is_behind: bool,
+}
+
+impl Projected {
+    /// A box in the picture that contains the convex hull of points: the box's least and largest coordinates,
+    /// in pixels, where the first pixel's centre is at `first`. `None` if the hull is outside the picture.
+    /// The box is infinite if the hull reaches behind the eye.
+    pub(crate) fn region(points: impl IntoIterator<Item = Self>) -> Option<[[f64; 2]; 2]> {
+        let [mut low, mut high] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let (mut is_beyond, mut is_ahead, mut is_behind) = ([true; 4], true, true);
+        for point in points {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(point.around[0][axis]);
+                high[axis] = high[axis].max(point.around[1][axis]);
+            }
+            for (all, is_beyond) in is_beyond.iter_mut().zip(point.is_beyond) {
+                *all &= is_beyond;
+            }
+            is_ahead &= point.is_ahead;
+            is_behind &= point.is_behind;
+        }
+        if is_behind || is_beyond.contains(&true) {
+            return None;
+        }
+        Some(if is_ahead { [low, high] } else { [[f64::NEG_INFINITY; 2], [f64::INFINITY; 2]] })
+    }
+}
+
 impl Rays {
     /// All pixels whose rays may meet the convex hull of these points, each given to within `VERTEX_ERROR`;
     /// `None` if there are no such pixels.
@@ -368,7 +404,8 @@ impl Rays {
     /// A polygon that reaches behind the eye may be anywhere in the picture, unless it lies entirely beyond
     /// one of the picture's sides.
     pub(crate) fn window(&self, points: &[[f64; 3]]) -> Option<Window> {
-        let [[left, top], [right, bottom]] = self.region(points)?;
+        let points = points.iter().map(|&point| self.projected(point));
+        let [[left, top], [right, bottom]] = Projected::region(points)?;
         let range = |axis: usize, low: f64, high: f64| {
             let first = low.ceil().max(0.0) as u32;
             let last = high.floor().min(f64::from(self.size[axis]) - 1.0);
@@ -378,47 +415,30 @@ impl Rays {
         if window.columns.is_empty() || window.rows.is_empty() { None } else { Some(window) }
     }
 
-    /// A box in the picture that contains the convex hull of these points, each given to within
-    /// `VERTEX_ERROR`: the box's least and largest coordinates, in pixels, where the first pixel's centre is
-    /// at `first`. `None` if the hull is outside the picture. The box is infinite for a polygon that reaches
-    /// behind the eye.
-    pub(crate) fn region(&self, points: &[[f64; 3]]) -> Option<[[f64; 2]; 2]> {
+    /// The place in the picture of a point given to within `VERTEX_ERROR`.
+    pub(crate) fn projected(&self, point: [f64; 3]) -> Projected {
         let [width, height] = self.size.map(f64::from);
         // The picture's sides, in pixels from the middle of the whole picture.
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
         let sides = [[-0.5 * width, 0.5 * width], [top, top + height]];
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        let (mut ahead, mut behind) = (true, true);
-        // For the left, right, upper and lower side, whether all points so far are beyond it.
-        let mut beyond = [true; 4];
-        for &point in points {
-            let (at, error) = self.in_picture(point);
-            let (z, slack) = (at.z, error.z);
-            ahead &= z > 4.0 * slack;
-            behind &= z < -slack;
-            for (axis, [first, last]) in sides.into_iter().enumerate() {
-                let (p, e) = (at[axis], error[axis] + (first.abs().max(last.abs()) + 1.0) * slack);
-                beyond[2 * axis] &= p - (first - 1.0) * z < -e;
-                beyond[2 * axis + 1] &= (last + 1.0) * z - p < -e;
-                let position = p / z;
-                let pad = (error[axis] + position.abs() * slack) / (z - slack) + MARGIN;
-                low[axis] = low[axis].min(position - pad);
-                high[axis] = high[axis].max(position + pad);
-            }
+        let (at, error) = self.in_picture(point);
+        let (z, slack) = (at.z, error.z);
+        let (mut around, mut is_beyond) = ([[0.0; 2]; 2], [false; 4]);
+        for (axis, [first, last]) in sides.into_iter().enumerate() {
+            let (p, e) = (at[axis], error[axis] + (first.abs().max(last.abs()) + 1.0) * slack);
+            is_beyond[2 * axis] = p - (first - 1.0) * z < -e;
+            is_beyond[2 * axis + 1] = (last + 1.0) * z - p < -e;
+            // From the middle of the whole picture to the origin of coordinates.
+            let position = p / z;
+            let pad = (error[axis] + position.abs() * slack) / (z - slack) + MARGIN;
+            let shift = self.first - 0.5 - first;
+            (around[0][axis], around[1][axis]) = (position - pad + shift, position + pad + shift);
         }
-        if behind || beyond.contains(&true) {
-            return None;
-        }
-        if !ahead {
-            return Some([[f64::NEG_INFINITY; 2], [f64::INFINITY; 2]]);
-        }
-        // From the middle of the whole picture to the origin of coordinates.
-        let shift = [0, 1].map(|axis: usize| self.first - 0.5 - sides[axis][0]);
-        Some([low, high].map(|end| [end[0] + shift[0], end[1] + shift[1]]))
+        Projected { around, is_beyond, is_ahead: z > 4.0 * slack, is_behind: z < -slack }
     }
 
     /// A lattice point in homogeneous coordinates of the picture, rounded, with a bound on the error of each
-    /// coordinate: x and y in pixels, as in [`region`](Self::region), times the last coordinate, which is
+    /// coordinate: x and y in pixels, as in [`Projected::region`], times the last coordinate, which is
     /// positive ahead of the eye.
     #[cfg(feature = "drawing")]
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
