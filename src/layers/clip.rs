@@ -53,12 +53,14 @@ pub(super) fn clip(
     for Point { local, edge } in points {
         let at = local.extend(1.0);
         let [x, y, z, w] = rows.map(|row| row.dot(at));
-        // Such a w is due to rounding: the layer is in the plane of the eye.
-        if w <= 0.0 || !(w / scale).is_normal() {
+        let mut position = DVec3::new(x, y, z) / w;
+        // Such a w, and such a distance from the box, are due to rounding: the layer is in the plane of the eye.
+        let beyond = (limits[0] - position).max(position - limits[1]);
+        let is_near = beyond.cmple(limits[1] - limits[0]).all();
+        if w <= 0.0 || !(w / scale).is_normal() || !is_near {
             corners.truncate(begin);
             return None;
         }
-        let mut position = DVec3::new(x, y, z) / w;
         if let Some([low, high]) = viewport {
             position = position.truncate().clamp(low, high).extend(position.z);
         }

@@ -100,6 +100,7 @@
 //! | outside an ancestor that [clips](Layer::clipped_by) the layer, or clipped by an ancestor whose matrix maps the ancestor to a line or a point | no piece |
 //! | mapped by its matrix to a line or a point | no piece |
 //! | seen edge-on within the rounding of the matrix; also a rectangle so far from its own origin that this rounding is as large as the area on the screen | no piece |
+//! | has numbers of so different sizes that rounding puts a corner further outside the box than the box is wide | no piece |
 //! | has numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸ (for example a matrix times 10⁻³¹⁰), or a product of the rectangle's sides below 2·10⁻³⁰⁸ (for example 10⁻¹⁷⁰ by 10⁻¹⁷⁰) | no piece |
 //! | smaller on the screen than 2⁻⁵² of the [extent](crate::BspTree#exactness) of all layers, to which positions are rounded | no piece |
 //! | any other layer | a convex polygon of at most ten corners, plus four for each ancestor that clips it; in one piece, or in several pieces if other layers cut it |

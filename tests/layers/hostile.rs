@@ -164,6 +164,25 @@ fn layers_too_far_or_too_small_have_no_piece_and_slightly_nearer_or_larger_ones_
     }
 }
 
+/// The depth of such a layer's corners is rounded to 10⁵⁰ pixels and more. A page that included this depth in its
+/// extent would round all other layers to points.
+#[test]
+fn a_layer_whose_depth_is_lost_by_rounding_leaves_other_layers_visible() {
+    let columns = |[x, y, z, w]: [[f64; 3]; 4]| {
+        let column = |k: usize| DVec4::new(x[k], y[k], z[k], w[k]);
+        DMat4::from_cols(column(0), column(1), DVec4::ZERO, column(2))
+    };
+    let lost = columns([
+        [-1.0, 1e99, -1.0],
+        [1e-95, 1.0, -1000.0],
+        [1000.0, 1000.0, 1.0],
+        [1e192, -1e51, 1e-65],
+    ]);
+    for rect in [[[-1.0, 1.0], [999.0, 1001.0]], [[-1.0, 1.5], [99.0, 700.0]]] {
+        assert_eq!(pieces(Layer::new(rect, lost)), 0, "{rect:?}");
+    }
+}
+
 /// Homogeneous coordinates mean the same at any scale.
 #[test]
 fn the_scale_of_a_matrix_does_not_matter() {
