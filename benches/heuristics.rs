@@ -1,5 +1,5 @@
-//! Measures fragments, depth, build time and order time of every heuristic on every scene. Prints a table for
-//! each scene, and then the table of HEURISTICS.md.
+//! Measures fragments, depth, build time and order time of every heuristic on every scene, and of `auto` with
+//! trials. Prints a table for each scene, and then the table of HEURISTICS.md.
 //!
 //! ```sh
 //! cargo bench -p binspace-benches --bench heuristics
@@ -49,8 +49,19 @@ fn main() {
     summary("Heuristics on real scenes", &files);
 }
 
+/// The name of the row that other rows are compared with.
+const AUTO: &str = "auto";
+
+/// Every heuristic, and `auto` with trials.
+fn tried() -> Vec<(String, BuildOptions)> {
+    let default = BuildOptions::DEFAULT;
+    let heuristics = Heuristic::ALL.iter().map(|&h| (h.to_string(), default.with_heuristic(h)));
+    let trials = [2, 4, 8].map(|n| (format!("{AUTO}, {n} trials"), default.with_trials(n)));
+    heuristics.chain(trials).collect()
+}
+
 struct Row {
-    heuristic: Heuristic,
+    name: String,
     fragments: usize,
     build: Duration,
     order: Duration,
@@ -70,14 +81,13 @@ fn measure(name: &str, scene: &Scene) -> Vec<Row> {
         ],
     );
     let mut rows = Vec::new();
-    for &heuristic in Heuristic::ALL {
-        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+    for (heuristic, options) in tried() {
         let (build, tree) = best_of(1, || build(&options, scene));
         let tree = match tree {
             Ok(tree) => tree,
             Err(why) => {
                 let mut cells = [""; 7].map(str::to_owned);
-                [cells[0], cells[5]] = [heuristic.to_string(), why];
+                [cells[0], cells[5]] = [heuristic, why];
                 table.row(&cells);
                 continue;
             }
@@ -86,7 +96,7 @@ fn measure(name: &str, scene: &Scene) -> Vec<Row> {
         let stats = tree.stats();
         check(&tree, scene);
         table.row(&[
-            heuristic.to_string(),
+            heuristic.clone(),
             stats.fragments.to_string(),
             format!("{:.3}", stats.fragments as f64 / stats.faces as f64),
             stats.depth_max.to_string(),
@@ -94,7 +104,7 @@ fn measure(name: &str, scene: &Scene) -> Vec<Row> {
             time(build),
             format!("{:.1} ns", order.as_secs_f64() * 1e9 / stats.fragments as f64),
         ]);
-        rows.push(Row { heuristic, fragments: stats.fragments, build, order });
+        rows.push(Row { name: heuristic, fragments: stats.fragments, build, order });
     }
     rows
 }
@@ -149,20 +159,18 @@ type Figure = (usize, fn(&Row) -> f64);
 /// with the smallest and the largest ratio. Scenes whose builds were given up are left out.
 fn summary(title: &str, measured: &[&(&str, Vec<Row>)]) {
     let figures: [Figure; 3] = [
-        (2, |row| row.fragments as f64),
+        (3, |row| row.fragments as f64),
         (2, |row| row.build.as_secs_f64()),
         (1, |row| row.order.as_secs_f64()),
     ];
     let table = Table::new(title, &COLUMNS);
-    for &heuristic in Heuristic::ALL {
-        let mut cells = vec![heuristic.to_string()];
+    for (heuristic, _) in tried() {
+        let mut cells = vec![heuristic.clone()];
         for (decimals, figure) in figures {
-            let of = |rows: &[Row], by: Heuristic| {
-                rows.iter().find(|row| row.heuristic == by).map(figure)
-            };
-            let ratios = measured.iter().filter_map(|(name, rows)| {
-                Some((of(rows, heuristic)? / of(rows, Heuristic::Auto)?, *name))
-            });
+            let of = |rows: &[Row], by: &str| rows.iter().find(|row| row.name == by).map(figure);
+            let ratios = measured
+                .iter()
+                .filter_map(|(name, rows)| Some((of(rows, &heuristic)? / of(rows, AUTO)?, *name)));
             let ratios: Vec<(f64, &str)> = ratios.collect();
             let mean =
                 ratios.iter().map(|(ratio, _)| ratio.ln()).sum::<f64>() / ratios.len() as f64;
