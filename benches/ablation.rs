@@ -53,7 +53,7 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 39] = changes! {
+const CHANGES: [Change; 36] = changes! {
     frames: "as in frames" => Some(FrameTuning::FRAMES),
         "clean planes alone" => Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
@@ -64,7 +64,6 @@ const CHANGES: [Change; 39] = changes! {
     next_cuts: "0" => 0.0, "½" => 0.025, "×2" => 0.1;
     few_own_planes: "0" => 0, "½" => 8, "×2" => 32;
     one_sided_needed: "never" => MOST, "½" => 6, "×4/3" => 16;
-    uneven: "never" => 1, "½" => 2, "×2" => 8;
     first_sample: "½" => 8, "×2" => 32, "all" => MOST / 2;
     rate: "½" => 2, "×2" => 8;
     reward: "0" => 0.0, "½" => 0.175, "×2" => 0.7;
@@ -72,7 +71,7 @@ const CHANGES: [Change; 39] = changes! {
 };
 
 /// The changes of the tuning for frames.
-const OF_FRAMES: [Change; 9] = [
+const OF_FRAMES: [Change; 11] = [
     ("frames: crossings", "0", |t| {
         t.frames = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })
     }),
@@ -85,6 +84,12 @@ const OF_FRAMES: [Change; 9] = [
     ("frames: probes", "0", |t| t.frames = Some(FrameTuning { probes: 0, ..FrameTuning::FRAMES })),
     ("frames: probes", "×2", |t| {
         t.frames = Some(FrameTuning { probes: 8, ..FrameTuning::FRAMES })
+    }),
+    ("frames: uneven", "never", |t| {
+        t.frames = Some(FrameTuning { uneven: 1, ..FrameTuning::FRAMES })
+    }),
+    ("frames: uneven", "×2", |t| {
+        t.frames = Some(FrameTuning { uneven: 8, ..FrameTuning::FRAMES })
     }),
     ("frames: trusted_share", "½", |t| {
         t.frames = Some(FrameTuning { trusted_share: 0.125, ..FrameTuning::FRAMES })

@@ -39,7 +39,7 @@ impl Auto {
         let tuning = rules.tuning;
         if let Some(frames) = &tuning.frames
             && set.len() <= tuning.small
-            && let Some(plane) = find_own(set, tuning, frames, division)
+            && let Some(plane) = find_own(set, frames, division)
         {
             return Ok(Choice::Split(plane));
         }

@@ -7,7 +7,6 @@ use smallvec::SmallVec;
 use super::ChooseContext;
 use super::cost::{Cost, Counts, PricedPlane};
 use super::set::Set;
-use super::tuning::Tuning;
 use crate::Error;
 use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId};
@@ -40,7 +39,7 @@ impl FreePlanes {
         rules: &ChooseContext<'_>,
     ) -> Result<Option<PricedPlane>, Error> {
         if set.len() < rules.tuning.clean_below {
-            Ok(self.clean(set, rules.tuning))
+            Ok(self.clean(set))
         } else {
             self.best(set, rules.watch)
         }
@@ -112,13 +111,10 @@ impl FreePlanes {
 
     /// Searches for the free plane with the lowest cost among the planes that cut nothing. Sorts the set; in
     /// small sets, sorting takes less time than counting by bins.
-    pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PricedPlane> {
+    pub(super) fn clean(&mut self, set: &Set<'_>) -> Option<PricedPlane> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
         for axis in axes(set).filter(|&axis| set.may_part(axis) && set.may_have_gap(axis)) {
-            if best.is_some_and(|best| best.cost.divides_evenly(n, tuning.uneven)) {
-                break;
-            }
             let spans = pieces.iter().zip(0..).map(|(p, i)| (p.min[axis], p.max[axis], i));
             self.spans.clear();
             self.spans.reserve(n);

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::cost::{Cost, Counts};
 use super::own::Shares;
 use super::set::Set;
-use super::tuning::{FrameTuning, Tuning};
+use super::tuning::FrameTuning;
 use crate::build::piece::{Division, Piece};
 use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, RoundedNormal, Side, Vertex};
 
@@ -32,7 +32,6 @@ impl FrameTuning {
 /// the plane's own piece. Writes the plane and the pieces' sides to `division`.
 pub(super) fn find_own(
     set: &Set<'_>,
-    tuning: &Tuning,
     frames: &FrameTuning,
     division: &mut Division,
 ) -> Option<PlaneId> {
@@ -40,7 +39,7 @@ pub(super) fn find_own(
     let own = set.sample(frames.probes).find(|&own| {
         shares.get(&set.pieces[own]) >= least_share
             && set.divide(set.own_plane(own), frames.crossings, division)
-            && (Cost::of(&Counts::of(division)).divides_evenly(set.len(), tuning.uneven)
+            && (Cost::of(&Counts::of(division)).divides_evenly(set.len(), frames.uneven)
                 || cuts_what_crosses(set, own, division))
     });
     own.map(|own| set.own_plane(own))

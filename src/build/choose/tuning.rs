@@ -41,10 +41,6 @@ pub struct Tuning {
     /// whole first sample on one side. Too large: large convex sets are cut. Too small: searches that find
     /// nothing.
     pub one_sided_needed: usize,
-    /// Of planes found by sorting, and in frames, one that cuts nothing is used at once if each side keeps at
-    /// least 1/`uneven` of the pieces. Too
-    /// large: unbalanced trees. Too small: a longer search for little gain.
-    pub uneven: usize,
     /// The number of pieces in the first sample that own planes are compared with. A sample of the same size
     /// yields the large piece whose plane is tested as the common plane of all pieces. Too large: time. Too
     /// small: good planes are dropped by chance, and the piece tested for the common plane may be too small.
@@ -79,7 +75,6 @@ impl Tuning {
         own_planes: 96,
         few_own_planes: 16,
         one_sided_needed: 12,
-        uneven: 4,
         first_sample: 16,
         rate: 4,
         reward: 0.35,
@@ -104,6 +99,9 @@ pub struct FrameTuning {
     /// plane cuts something. Too small: stacks of layers are searched for the best plane, though any plane is
     /// good.
     pub probes: usize,
+    /// An own plane that cuts nothing is used at once if each side keeps at least 1/`uneven` of the pieces. Too
+    /// large: unbalanced trees. Too small: a longer search for little gain.
+    pub uneven: usize,
     /// A share of a set's bounding box. If the tolerance is coarse, a piece's plane is used without further
     /// search only if the piece fills at least this share. Corners in `f32` are rounded, so small polygons
     /// that were meant to lie in one plane have different planes, which separate other polygons of that
@@ -119,5 +117,6 @@ pub struct FrameTuning {
 
 impl FrameTuning {
     /// The constants of frames.
-    pub const FRAMES: Self = Self { crossings: 2, probes: 4, trusted_share: 0.25, coarse: 1e-8 };
+    pub const FRAMES: Self =
+        Self { crossings: 2, probes: 4, uneven: 4, trusted_share: 0.25, coarse: 1e-8 };
 }
