@@ -54,9 +54,9 @@ const AUTO: &str = "auto";
 
 /// Every heuristic, and `auto` with trials.
 fn tried() -> Vec<(String, BuildOptions)> {
-    let default = BuildOptions::DEFAULT;
-    let heuristics = Heuristic::ALL.iter().map(|&h| (h.to_string(), default.with_heuristic(h)));
-    let trials = [2, 4, 8].map(|n| (format!("{AUTO}, {n} trials"), default.with_trials(n)));
+    let default = || BuildOptions::DEFAULT;
+    let heuristics = Heuristic::ALL.iter().map(|&h| (h.to_string(), default().with_heuristic(h)));
+    let trials = [2, 4, 8].map(|n| (format!("{AUTO}, {n} trials"), default().with_trials(n)));
     heuristics.chain(trials).collect()
 }
 
