@@ -53,7 +53,7 @@ macro_rules! changes {
 
 const MOST: usize = usize::MAX;
 
-const CHANGES: [Change; 36] = changes! {
+const CHANGES: [Change; 29] = changes! {
     frames: "as in frames" => Some(FrameTuning::FRAMES),
         "clean planes alone" => Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
@@ -62,11 +62,8 @@ const CHANGES: [Change; 36] = changes! {
     risk_at: "½" => 0.1, "×2" => 0.4;
     pairs: "1" => 1, "½" => 2, "×2" => 8;
     next_cuts: "0" => 0.0, "½" => 0.025, "×2" => 0.1;
-    few_own_planes: "0" => 0, "½" => 8, "×2" => 32;
-    one_sided_needed: "never" => MOST, "½" => 6, "×4/3" => 16;
-    first_sample: "½" => 8, "×2" => 32, "all" => MOST / 2;
-    rate: "½" => 2, "×2" => 8;
-    reward: "0" => 0.0, "½" => 0.175, "×2" => 0.7;
+    sample: "0" => 0, "½" => 32, "×2" => 128, "×4" => 256;
+    one_sided_needed: "never" => f64::INFINITY, "½" => 0.375, "×4/3" => 1.0;
     groups_per_box: "½" => 32, "×2" => 128, "all" => 1 << 30;
 };
 

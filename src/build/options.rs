@@ -245,9 +245,9 @@ pub enum Heuristic {
     /// cuts separates a single polygon at the boundary of the set, as in a convex body, one pass separates all
     /// these polygons one after the other.
     ///
-    /// In a larger set, the candidates are free planes and the planes of a sample of the polygons, which are
-    /// compared by successive halving (Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed
-    /// bandits”, 2013). The plane of a large polygon gets a reward.
+    /// In a larger set, the planes of a sample of 64 polygons are compared in the same way, by their effect on the
+    /// sample. The best of these is then compared with a free plane by its effect on the whole set. Cuts alone do not
+    /// decide here, because a plane that cuts nothing of a sample may cut much of the set.
     ///
     /// A [`FrameBuilder`](crate::FrameBuilder) tries polygons' planes first, which takes less time: four
     /// planes in sets of up to 256 polygons. A `FrameBuilder` accepts a plane that cuts nothing and divides

@@ -24,7 +24,7 @@ fn trees_are_exact_after_trials() {
 #[test]
 fn trials_cut_less() {
     let scenes =
-        [scene::random_triangles(300, 4), scene::random_triangles(1500, 1), scene::teapot(12)];
+        [scene::random_triangles(500, 4), scene::random_triangles(1500, 1), scene::teapot(12)];
     for scene in scenes {
         let fragments = [0, 1, 4, 16].map(|planes| {
             let options = BuildOptions::DEFAULT.with_trials(planes);

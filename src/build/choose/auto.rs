@@ -1,13 +1,11 @@
 //! The default heuristic. One cost compares two kinds of candidates: free planes and the pieces' own planes.
 
 use super::axis_planes::FreePlanes;
-use super::cost::{CostModel, PricedPlane};
+use super::cost::{Cost, Counts, PricedPlane, work};
 use super::frame_planes::find_own;
-use super::own::{Candidates, Sample};
 use super::peel::{Peeler, arrange};
-use super::set::{LANES, Set};
+use super::set::{PackedPieces, Set};
 use super::table::Table;
-use super::tuning::Tuning;
 use super::{Choice, ChooseContext};
 use crate::Error;
 use crate::build::piece::{Division, Piece};
@@ -18,12 +16,20 @@ use crate::progress::PIECES_AT_ONCE;
 #[derive(Debug, Default)]
 pub(super) struct Auto {
     pub(super) free: FreePlanes,
-    sample: Sample,
-    candidates: Candidates,
+    sketch: PackedPieces,
+    /// The sampled pieces of a large set, and their numbers.
+    sampled: Vec<Piece>,
+    numbers: Vec<usize>,
+    /// The sides of the sampled pieces at their planes.
+    table: Table,
     peeler: Peeler,
     /// The numbers of a large set's pieces, sorted for peeling.
     arranged: Vec<usize>,
 }
+
+/// The number of pieces of which the largest is tested for the common plane of all. Too small: the piece tested may be
+/// too small to define the plane. Too large: time.
+const LARGE_OF: usize = 16;
 
 impl Auto {
     /// Returns the first of the following that exists: in frames, an own plane that is good enough; the plane
@@ -44,7 +50,7 @@ impl Auto {
             return Ok(Choice::Split(plane));
         }
         division.plane = None;
-        if let Some(plane) = self.common_plane(set, tuning) {
+        if let Some(plane) = self.common_plane(set) {
             return Ok(Choice::Split(plane));
         }
         if set.len() == 2
@@ -61,21 +67,21 @@ impl Auto {
         if Table::holds(set, tuning) {
             Ok(Choice::Table)
         } else {
-            self.best_of_large(rules, set, free)
+            self.best_of_large(rules, set, free, division)
         }
     }
 
     /// Returns the plane on which all pieces lie, if a large piece defines that plane. A single piece has
     /// such a plane.
-    pub(super) fn common_plane(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PlaneId> {
-        let sketch = &mut self.sample.sketch;
+    pub(super) fn common_plane(&mut self, set: &Set<'_>) -> Option<PlaneId> {
+        let sketch = &mut self.sketch;
         sketch.reset(set);
         // The planes of small pieces may miss the other pieces because of rounding.
         let size = |&piece: &usize| {
             let Piece { min, max, .. } = set.pieces[piece];
             (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max)
         };
-        let large = set.sample(tuning.first_sample).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let large = set.sample(LARGE_OF).max_by(|a, b| size(a).total_cmp(&size(b)))?;
         // The last piece is likely to be far from the first.
         let pieces = || (0..set.len()).rev();
         if !pieces().all(|piece| sketch.may_be_on(set, large, piece)) {
@@ -86,49 +92,49 @@ impl Auto {
         pieces().all(|piece| set.classify(&prepared, piece) == Side::Coplanar).then_some(plane)
     }
 
+    /// Chooses between an axis plane and the best plane of a sample of the set's pieces. A table compares the
+    /// planes of the sample by their effect on the sample; the cost of the best is then counted over the whole set.
     fn best_of_large(
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
         free: Option<PricedPlane>,
+        division: &mut Division,
     ) -> Result<Choice, Error> {
         let ChooseContext { tuning, watch, .. } = *rules;
-        let terms = CostModel::of(set, tuning);
-        // Each step is a pass over the set, or several.
-        watch.work(set.len())?;
-        self.begin_large(set, &terms, tuning);
-        watch.work(set.len())?;
-        if self.candidates.one_sided().len() >= tuning.one_sided_needed {
-            let Sample { sketch, .. } = &mut self.sample;
-            sketch.clear();
+        watch.work(tuning.sample * tuning.sample)?;
+        self.numbers.clear();
+        self.numbers.extend(Table::fitting(set, set.sample(tuning.sample)));
+        self.sampled.clear();
+        self.sampled.extend(self.numbers.iter().map(|&piece| set.pieces[piece]));
+        self.table.fill(&set.over(&self.sampled));
+        let one_sided = self.table.one_sided() as f64;
+        if one_sided >= tuning.one_sided_needed * self.numbers.len() as f64 {
+            self.sketch.reset(set);
             arrange(set, tuning.groups_per_box, &mut self.arranged);
             watch.work(set.len())?;
             for part in self.arranged.chunks(PIECES_AT_ONCE) {
-                sketch.extend(set, part.iter().copied());
+                self.sketch.extend(set, part.iter().copied());
                 watch.work(part.len())?;
             }
-            if let Some(peeled) = self.peeler.search(set, sketch, tuning, watch) {
+            if let Some(peeled) = self.peeler.search(set, &self.sketch, tuning, watch) {
                 return Ok(Choice::Peel(peeled));
             }
-            // The packed pieces are now in another order, whose first pieces are not a sample.
-            self.begin_large(set, &terms, tuning);
-            watch.work(set.len())?;
         }
-        let other = free.map_or(f64::INFINITY, |free| free.cost.amount);
-        let own = self.candidates.best(set, &mut self.sample, &terms, tuning, other);
-        Ok(Choice::Split(match (own, free) {
-            (Some((_, cost)), Some(free)) if free.cost.amount < cost => free.plane,
-            (Some((plane, _)), _) => plane,
-            (None, Some(free)) => free.plane,
-            (None, None) => set.own_plane(0),
-        }))
-    }
-
-    /// Compares own planes of a large set with a first sample of the set.
-    fn begin_large(&mut self, set: &Set<'_>, terms: &CostModel, tuning: &Tuning) {
-        let count = tuning.few_own_planes;
-        self.sample.restart(set, count.next_multiple_of(LANES));
-        self.candidates.begin(set, &mut self.sample, count, terms, tuning);
+        let Some(best) = self.table.cheapest(tuning) else {
+            return Ok(Choice::Split(free.map_or(set.own_plane(0), |free| free.plane)));
+        };
+        let own = set.own_plane(self.numbers[best.piece]);
+        // Work is a power of the number of pieces, so costs over the sample are costs over the set times one factor.
+        let scale = work(set.len()) / work(self.numbers.len());
+        let Some(free) = free else { return Ok(Choice::Split(own)) };
+        if free.cost.amount < scale * (best.amount - best.reward) {
+            return Ok(Choice::Split(free.plane));
+        }
+        watch.work(set.len())?;
+        set.divide(own, usize::MAX, division);
+        let cost = Cost::of(&Counts::of(division)).amount - scale * best.reward;
+        Ok(Choice::Split(if free.cost.amount < cost { free.plane } else { own }))
     }
 }
 
@@ -145,7 +151,6 @@ fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
 mod tests {
     use super::super::tests::{Fixture, grid, triangles};
     use super::{Auto, plane_of_pair};
-    use crate::build::choose::tuning::Tuning;
     use crate::exact::Side;
     use crate::random::SplitMix64;
 
@@ -175,7 +180,7 @@ mod tests {
             let mut random = SplitMix64::new(1);
             let polygons = grid(4, |_| height * random.point(-1.0, 1.0).x);
             let fixture = Fixture::new(&polygons, tolerance);
-            let plane = Auto::default().common_plane(&fixture.set(), &Tuning::DEFAULT);
+            let plane = Auto::default().common_plane(&fixture.set());
             assert_eq!(plane.is_some(), expected, "{height} within {tolerance}");
         }
     }
@@ -189,13 +194,9 @@ mod tests {
             let mut polygons = flat.clone();
             polygons[odd] = polygons[odd].map(|corner| corner + 1e-9);
             let fixture = Fixture::new(&polygons, 1e-12);
-            assert_eq!(
-                Auto::default().common_plane(&fixture.set(), &Tuning::DEFAULT),
-                None,
-                "{odd}"
-            );
+            assert_eq!(Auto::default().common_plane(&fixture.set()), None, "{odd}");
         }
         let fixture = Fixture::new(&flat, 1e-12);
-        assert!(Auto::default().common_plane(&fixture.set(), &Tuning::DEFAULT).is_some());
+        assert!(Auto::default().common_plane(&fixture.set()).is_some());
     }
 }

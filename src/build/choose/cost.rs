@@ -3,8 +3,6 @@
 use std::cmp::Ordering;
 use std::ops::AddAssign;
 
-use super::set::Set;
-use super::tuning::Tuning;
 use crate::build::piece::Division;
 use crate::exact::{PlaneId, Side};
 
@@ -39,7 +37,9 @@ impl AddAssign for Counts {
 ///
 /// A plane that cuts nothing costs less than any plane that cuts, because such a plane adds no fragment, now
 /// or later. (Proof: restrict the smallest tree of the set to each side of the plane. The two restricted
-/// trees together have no more fragments.) Exception: own planes of large sets (see [`CostModel`]).
+/// trees together have no more fragments.) Exception: own planes of
+/// large sets, where cuts are ignored. Planes at the boundary of a set cut nothing, but they would turn the set into
+/// a list; and many planes that cut much of the set cut nothing of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,
@@ -77,34 +77,6 @@ impl Cost {
             (_, true) => Ordering::Greater,
             _ => Ordering::Equal,
         }
-    }
-}
-
-/// The weights for comparing candidates in a large set, where cuts are ignored: the first rounds use a sample,
-/// and many planes that cut much of the set cut nothing of the sample. Planes at the boundary of a set also cut
-/// nothing, but they would turn the set into a list.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CostModel {
-    /// The reward of a polygon that fills the box.
-    reward: f64,
-}
-
-impl CostModel {
-    pub(super) fn of(set: &Set<'_>, tuning: &Tuning) -> Self {
-        let pieces = set.len() as f64;
-        let cuts: usize = set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum();
-        Self { reward: tuning.reward * (1.0 + cuts as f64 / pieces) * pieces }
-    }
-
-    /// The same weights for counts over a sample of `looked` of `all` pieces. (Work is a power of the number
-    /// of pieces, so costs over a sample are costs over all pieces times one factor.)
-    pub(super) fn of_sample(&self, looked: usize, all: usize) -> Self {
-        Self { reward: self.reward * work(looked) / work(all) }
-    }
-
-    #[inline]
-    pub(super) fn cost(&self, counts: &Counts, share: f64) -> f64 {
-        Cost::of(counts).amount - self.reward * share
     }
 }
 
@@ -157,7 +129,7 @@ const fn sqrt(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cost, CostModel, Counts, work};
+    use super::{Cost, Counts, work};
 
     #[test]
     fn work_is_a_power() {
@@ -176,30 +148,5 @@ mod tests {
         };
         assert!([10, 21, 32].into_iter().all(|front| divides_evenly(front, 0)));
         assert!(!divides_evenly(9, 0) && !divides_evenly(33, 0) && !divides_evenly(20, 1));
-    }
-
-    #[test]
-    fn weights_of_large_sets_ignore_cuts() {
-        let terms = CostModel { reward: 10.0 };
-        let even = Counts { front: 45, back: 45, splits: 10 };
-        let rim = Counts { front: 99, back: 0, splits: 0 };
-        assert!(terms.cost(&even, 0.5) < terms.cost(&rim, 0.5));
-        assert!(Cost::of(&rim).is_less(&Cost::of(&even)));
-    }
-
-    /// Halving a set and all counts reduces all costs by the same factor.
-    #[test]
-    fn costs_of_a_sample_are_proportional_to_costs_of_the_set() {
-        let terms = CostModel { reward: 300.0 };
-        let half = terms.of_sample(200, 400);
-        for (front, back, splits, share) in
-            [(300, 80, 20, 0.9), (200, 200, 0, 0.1), (0, 0, 400, 1.0)]
-        {
-            let all = terms.cost(&Counts { front, back, splits }, share);
-            let [front, back, splits] = [front, back, splits].map(|count| count / 2);
-            let sample = half.cost(&Counts { front, back, splits }, share);
-            let expected = all * work(200) / work(400);
-            assert!((sample - expected).abs() < 1e-9, "{sample:?}, not {expected}");
-        }
     }
 }

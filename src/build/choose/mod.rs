@@ -84,7 +84,7 @@ impl Chooser {
                 self.weighted(rules, set, candidates as usize, DEFAULT_WEIGHTS)
             }
             Heuristic::FreePlanes => {
-                if let Some(plane) = self.auto.common_plane(set, rules.tuning) {
+                if let Some(plane) = self.auto.common_plane(set) {
                     return Ok(Choice::Split(plane));
                 }
                 let free = match self.auto.free.find(set, rules)? {

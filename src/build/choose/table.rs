@@ -229,6 +229,17 @@ impl Priced {
     }
 }
 
+/// The plane of lowest cost for a whole table.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cheapest {
+    /// The plane's own piece, by its number in the set.
+    pub(super) piece: usize,
+    /// The work left on both sides.
+    pub(super) amount: f64,
+    /// What the cost is less than the amount, because planes cut the plane's own piece.
+    pub(super) reward: f64,
+}
+
 /// The pieces of a small set, and their sides at the planes that may divide it.
 #[derive(Debug, Default)]
 pub(in crate::build) struct Table {
@@ -255,8 +266,19 @@ pub(in crate::build) struct Table {
 impl Table {
     /// Whether a set is small enough for a table.
     pub(in crate::build) fn holds(set: &Set<'_>, tuning: &Tuning) -> bool {
-        set.len() <= MOST_PIECES.min(tuning.small)
-            && (0..set.len()).map(|piece| set.vertices(piece)).sum::<usize>() <= MOST_CORNERS
+        set.len() <= tuning.small && Self::fitting(set, 0..set.len()).count() == set.len()
+    }
+
+    /// The first of some pieces of a set, as many as a table holds.
+    pub(super) fn fitting(
+        set: &Set<'_>,
+        pieces: impl Iterator<Item = usize>,
+    ) -> impl Iterator<Item = usize> {
+        let mut corners = 0;
+        pieces.take(MOST_PIECES).take_while(move |&piece| {
+            corners += set.vertices(piece);
+            corners <= MOST_CORNERS
+        })
     }
 
     /// Fills the table with a set, and returns the whole set.
@@ -390,6 +412,21 @@ impl Table {
             axis = self.divide(rules, set, part, free.plane)?;
         }
         Ok(self.best_of::<N>(few, part, first, tuning, axis))
+    }
+
+    /// Of all rows, the one of lowest cost; `None` if there are no rows.
+    pub(super) fn cheapest(&mut self, tuning: &Tuning) -> Option<Cheapest> {
+        let part = Mask::first(self.rows.len());
+        self.priced.clear();
+        self.price::<WORDS>(&part, 0, tuning);
+        let best = self.priced.iter().min_by(|a, b| a.cmp(b))?;
+        let amount = Cost::of(&self.sides(best.row as usize, &part).counts()).amount;
+        Some(Cheapest { piece: self.order[best.row as usize], amount, reward: amount - best.cost })
+    }
+
+    /// The number of rows whose planes have all pieces on one side.
+    pub(super) fn one_sided(&self) -> usize {
+        self.rows.iter().filter(|row| row.front.is_empty() || row.back.is_empty()).count()
     }
 
     /// The rows of lowest cost that the last choice compared; none if it was a plane without cuts.

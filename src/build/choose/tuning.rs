@@ -35,24 +35,12 @@ pub struct Tuning {
     /// The largest number of own planes tried by heuristics that only score own planes. Too large: time. Too
     /// small: more fragments.
     pub own_planes: usize,
-    /// The number of own planes tried in a large set. Too large: time. Too small: more fragments.
-    pub few_own_planes: usize,
-    /// A large set is searched for peelable pieces if at least this many of its tried own planes have the
-    /// whole first sample on one side. Too large: large convex sets are cut. Too small: searches that find
-    /// nothing.
-    pub one_sided_needed: usize,
-    /// The number of pieces in the first sample that own planes are compared with. A sample of the same size
-    /// yields the large piece whose plane is tested as the common plane of all pieces. Too large: time. Too
-    /// small: good planes are dropped by chance, and the piece tested for the common plane may be too small.
-    pub first_sample: usize,
-    /// The rate of successive halving. Each round keeps 1/`rate` of the own planes and compares them with
-    /// `rate` times as many pieces. Too large: the best are dropped by chance. Too small: time.
-    pub rate: usize,
-    /// The reward that is subtracted from the cost of a polygon's plane, per piece of the set. The reward is
-    /// scaled by the share of the bounding box that the polygon fills, and by 1 + the mean number of cuts per
-    /// piece. (A wall that is not used early is cut again by every plane through it.) Too large: depth is
-    /// wasted on polygons that no plane would cut. Too small: large polygons are cut.
-    pub reward: f64,
+    /// The number of pieces of a large set whose planes are compared, by their effect on each other (at most 256).
+    /// Too large: time. Too small: good planes are dropped by chance.
+    pub sample: usize,
+    /// A large set is searched for peelable pieces if at least this share of its sample's planes have the whole
+    /// sample on one side. Too large: large convex sets are cut. Too small: searches that find nothing.
+    pub one_sided_needed: f64,
     /// The largest number of groups of four pieces per box of the peeling search. Too large: groups are
     /// tested one by one. Too small: more boxes to build.
     pub groups_per_box: usize,
@@ -73,11 +61,8 @@ impl Tuning {
         most_tried: 64,
         most_cuts: 2,
         own_planes: 96,
-        few_own_planes: 16,
-        one_sided_needed: 12,
-        first_sample: 16,
-        rate: 4,
-        reward: 0.35,
+        sample: 64,
+        one_sided_needed: 0.75,
         groups_per_box: 64,
         frames: None,
     };

@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-use super::super::cost::Cost;
+use super::super::cost::{Cost, Counts};
 use super::super::set::Set;
 use super::super::tests::{Fixture, grid, triangles};
 use super::{Chosen, Divided, Mask, Sides, Table};
 use crate::build::BuildOptions;
 use crate::build::choose::ChooseContext;
 use crate::build::choose::tuning::Tuning;
-use crate::build::piece::{Piece, Splitter};
+use crate::build::piece::{Division, Piece, Splitter};
 use crate::exact::{PlaneId, Side};
 use crate::progress::Watch;
 use crate::random::SplitMix64;
@@ -108,6 +108,37 @@ fn a_table_has_the_sides_that_classification_finds() {
         (0..4).for_each(|side| found[side] += sides[side]);
     });
     assert!(found.iter().all(|&count| count > 10_000), "{found:?}");
+}
+
+/// Without a weight of risk, the cost of a plane is the work left on both sides.
+#[test]
+fn the_cheapest_plane_leaves_the_least_work() {
+    let (mut table, mut one_sided, mut compared) = (Table::default(), 0, 0);
+    for_each_set(|fixture| {
+        let set = fixture.set();
+        table.fill(&set);
+        let counts = |own: usize| {
+            let mut division = Division::default();
+            set.divide(set.own_plane(own), usize::MAX, &mut division);
+            Counts::of(&division)
+        };
+        let counts: Vec<_> = (0..set.len()).map(counts).collect();
+        let is_one_sided = |c: &&Counts| c.splits == 0 && c.front.min(c.back) == 0;
+        let expected = counts.iter().filter(is_one_sided).count();
+        assert_eq!(table.one_sided(), expected);
+        one_sided += expected;
+        let amounts = counts.iter().map(|counts| Cost::of(counts).amount);
+        let careless = Tuning { risk: 0.0, ..Tuning::DEFAULT };
+        let best = table.cheapest(&careless).unwrap();
+        assert_eq!((best.amount, best.reward), (amounts.fold(f64::INFINITY, f64::min), 0.0));
+        assert_eq!(best.amount, Cost::of(&counts[best.piece]).amount);
+        let best = table.cheapest(&Tuning::DEFAULT).unwrap();
+        assert_eq!(best.amount, Cost::of(&counts[best.piece]).amount);
+        compared += usize::from(best.reward > 0.0);
+    });
+    assert!(one_sided > 500 && compared > 40, "{one_sided} {compared}");
+    table.fill(&Set::new(&Fixture::new::<3>(&[], 0.0).faces, &[], &[]));
+    assert!(table.cheapest(&Tuning::DEFAULT).is_none() && table.one_sided() == 0);
 }
 
 /// Divides sets as the builder does, by any planes, down to single pieces.
