@@ -375,7 +375,7 @@ fn the_background_does_not_show_in_seams() {
 fn figures_of_the_guide_are_so() {
     let folder = Folder::new("draw_guide");
     for (arguments, expected) in [
-        ("random:500 -o a.svg", [("fragments", 3162), ("paths", 282), ("lines", 0)]),
+        ("random:500 -o a.svg", [("fragments", 3110), ("paths", 282), ("lines", 0)]),
         ("city:2000 -o a.svg", [("fragments", 2001), ("paths", 649), ("lines", 0)]),
         ("teapot --lines -o a.svg", [("paths", 0), ("runs", 428), ("lines", 65)]),
     ] {
