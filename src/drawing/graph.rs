@@ -85,19 +85,14 @@ impl Ranks {
     const fn is_before(&self, above: &Self) -> bool {
         self.all[1] < above.shown[0]
     }
-
-    /// Whether only some pieces of this polygon precede visible pieces of another polygon.
-    const fn is_around(&self, above: &Self) -> bool {
-        self.all[0] < above.shown[1] && !self.is_before(above)
-    }
 }
 
 /// Orders opaque polygons by the places of their pieces in the tree's order. `pairs` finds the requested
 /// pairs.
 ///
 /// If `below` has to be drawn before `above`, a piece of `below` is behind a visible piece of `above`. Then
-/// all pieces of `below` are behind (`is_before`), or the places of the two polygons interleave
-/// (`is_around`). Pairs of the first kind need not be found: a chain of nodes, one for each place in the
+/// all pieces of `below` are behind (`is_before`), or the interval of all pieces of `below` meets the interval of the
+/// visible pieces of `above`. Pairs of the first kind need not be found: a chain of nodes, one for each place in the
 /// tree's order at which a polygon ends, implies all of them. The chain implies more pairs than necessary,
 /// because most of these polygons do not overlap. The chain alone has no cycle, because the place of the last
 /// piece increases along it. Pairs of the second kind are found. In each such pair, one polygon has several
@@ -126,9 +121,9 @@ pub(super) fn order_by_rank(
         return order(count, &pairs(Wanted::ALL)?, &firsts, &|_| true, watch);
     }
     let around = pairs(Wanted {
-        is_marked: &|node| !of(node).is_one(),
-        needs_both: false,
-        is_wanted: &|Pair { below, above }| of(below).is_around(of(above)),
+        below: &|node| Interval::new(of(node).all[0], of(node).all[1]),
+        above: &|node| Interval::new(of(node).shown[0], of(node).shown[1]),
+        is_wanted: &|_| true,
     })?;
     // The places where polygons end.
     let mut ends: Vec<u32> = ranks.iter().map(|ranks| ranks.all[1]).collect();
@@ -159,9 +154,13 @@ pub(super) fn order_by_rank(
     let is_within = |&Pair { below, above }: &Pair| {
         component(below).is_some() && component(below) == component(above)
     };
+    // One interval for each component.
+    let own = |node: u32| {
+        component(node).map_or(Interval::NONE, |own| Interval::new(2 * own, 2 * own + 1))
+    };
     let mut within = pairs(Wanted {
-        is_marked: &|node| component(node).is_some(),
-        needs_both: true,
+        below: &own,
+        above: &own,
         is_wanted: &|pair| is_within(&pair) && of(pair.below).is_before(of(pair.above)),
     })?;
     within.extend(around.into_iter().filter(is_within));
@@ -485,16 +484,54 @@ impl Graph<'_> {
 /// The pairs of polygons to find.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'w> {
-    /// Only pairs with a marked polygon are wanted, so that most pairs are not compared.
-    pub(super) is_marked: &'w (dyn Fn(u32) -> bool + Sync),
-    /// Whether both polygons of a pair must be marked.
-    pub(super) needs_both: bool,
+    /// The interval of a polygon that is below another.
+    pub(super) below: &'w (dyn Fn(u32) -> Interval + Sync),
+    /// The interval of a polygon that is above another.
+    pub(super) above: &'w (dyn Fn(u32) -> Interval + Sync),
+    /// Whether a pair is wanted whose two intervals meet.
     pub(super) is_wanted: &'w (dyn Fn(Pair) -> bool + Sync),
 }
 
 impl Wanted<'_> {
-    pub(super) const ALL: Self =
-        Self { is_marked: &|_| true, needs_both: true, is_wanted: &|_| true };
+    pub(super) const ALL: Self = Self {
+        below: &|_| Interval::new(0, 1),
+        above: &|_| Interval::new(0, 1),
+        is_wanted: &|_| true,
+    };
+}
+
+/// The numbers from `first` to `last`. Only pairs of polygons whose intervals meet are wanted, so that most pairs
+/// are not compared. Two intervals of one number, of different polygons, do not meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Interval {
+    first: u32,
+    last: u32,
+}
+
+impl Interval {
+    /// The interval that meets no other.
+    pub(super) const NONE: Self = Self::new(u32::MAX, 0);
+
+    pub(super) const fn new(first: u32, last: u32) -> Self {
+        Self { first, last }
+    }
+
+    pub(super) const fn is_none(&self) -> bool {
+        self.first > self.last
+    }
+
+    pub(super) const fn is_one(&self) -> bool {
+        self.first == self.last
+    }
+
+    pub(super) const fn meets(&self, other: &Self) -> bool {
+        self.first <= other.last && other.first <= self.last
+    }
+
+    /// The smallest interval that contains both.
+    pub(super) fn hull(&self, other: &Self) -> Self {
+        Self { first: self.first.min(other.first), last: self.last.max(other.last) }
+    }
 }
 
 /// A pair of nodes: the node `below` has to be drawn before the node `above`.

@@ -296,8 +296,13 @@ impl<'p> Candidates<'p> {
         self.ends_at_cover && self.primitives.views[self.face(number) as usize].is_opaque
     }
 
-    /// The candidates that may reach into a box.
-    pub(super) fn narrowed(&self, sides: &Rect, watch: &Watch<'_>) -> Result<Self, Error> {
+    /// The candidates that may reach into a box, and that `keep` accepts.
+    pub(super) fn narrowed(
+        &self,
+        sides: &Rect,
+        keep: impl Fn(u32) -> bool,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
         watch.work(self.list.len() * NARROWED)?;
         let lines = &self.primitives.lines;
         let list = Vec::with_capacity(self.list.len());
@@ -309,7 +314,7 @@ impl<'p> Candidates<'p> {
                 break;
             }
             let around = self.around(number);
-            if are_apart(sides, around) {
+            if are_apart(sides, around) || !keep(number) {
                 continue;
             }
             let (start, halves) = (part.halves.len(), self.halves_of(candidate));
@@ -402,7 +407,7 @@ impl<'p> TileList<'p> {
     /// The whole picture, with the candidates that may reach into the picture.
     pub(super) fn picture(candidates: Candidates<'p>, watch: &Watch<'_>) -> Result<Self, Error> {
         let tile = Tile::picture(candidates.primitives.lines.frame.rays.size());
-        let candidates = candidates.narrowed(&tile.sides(), watch)?;
+        let candidates = candidates.narrowed(&tile.sides(), |_| true, watch)?;
         Ok(Self { tile, candidates, growth: Growth::NONE })
     }
 
@@ -424,7 +429,7 @@ impl<'p> TileList<'p> {
     /// The two halves of the tile.
     pub(super) fn halves(&self, watch: &Watch<'_>) -> Result<[Self; 2], Error> {
         let half = |tile: Tile| {
-            let candidates = self.candidates.narrowed(&tile.sides(), watch)?;
+            let candidates = self.candidates.narrowed(&tile.sides(), |_| true, watch)?;
             Ok(Self { tile, candidates, growth: Growth::NONE })
         };
         let [first, second] = self.tile.halves();
