@@ -81,9 +81,9 @@ struct Search<'s, 'p> {
 
 /// All requested pairs, sorted. `place` returns a number for a face's polygon, or `u32::MAX` if the polygon
 /// is not visible. Pairs contain these numbers for opaque polygons, and item numbers for translucent items.
-pub(super) fn pairs<'l, 'p>(
+pub(super) fn pairs<'p>(
     primitives: &'p Primitives<'p>,
-    leaves: &'l [Leaf],
+    leaves: &[Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
     wanted: Wanted<'_>,
     watch: &Watch<'_>,
