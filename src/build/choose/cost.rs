@@ -38,8 +38,8 @@ impl AddAssign for Counts {
 /// A plane that cuts nothing costs less than any plane that cuts, because such a plane adds no fragment, now
 /// or later. (Proof: restrict the smallest tree of the set to each side of the plane. The two restricted
 /// trees together have no more fragments.) Exception: own planes of
-/// large sets, where cuts are ignored. Planes at the boundary of a set cut nothing, but they would turn the set into
-/// a list; and many planes that cut much of the set cut nothing of a sample.
+/// large sets, whose cuts do not count by themselves. Planes at the boundary of a set cut nothing, but they would turn
+/// the set into a list; and many planes that cut much of the set cut nothing of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,
